@@ -128,8 +128,8 @@ Limits (an exceeded one is an error; see docs/usage.md for all):
 For comparison, the method of Zeng et al. 2011:
   --contour MODE      faithful: exact contours; paper: linked rays [faithful]
   --boxes MODE        of paper: local or global depth images [local]
-  --sampler KIND      of paper: scanline, gl (drawn by OpenGL), or gl-peeling
-                      (by depth peeling, as published) [scanline]
+  --sampler KIND      of paper: scanline, or gl (drawn by OpenGL, by depth
+                      peeling, as published) [scanline]
 
 Checks:
   --min-feature MM    report walls and gaps thinner than this, and what

@@ -105,11 +105,12 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
     settings.paper.boxes =
         mode == "global" ? ldni::BoxMode::kGlobal : ldni::BoxMode::kLocal;
   });
-  const auto& samplers = ldni::kSamplerNames;
-  add_choice(app, "--sampler", {samplers.begin(), samplers.end()},
+  // gl-peeling is another name of gl, from when gl was a method of its own.
+  add_choice(app, "--sampler", {"scanline", "gl", "gl-peeling"},
              [&](const std::string& kind) {
-               settings.paper.sampler = static_cast<ldni::SamplerKind>(
-                   std::ranges::find(samplers, kind) - samplers.begin());
+               settings.paper.sampler = kind == "scanline"
+                                            ? ldni::SamplerKind::kScanline
+                                            : ldni::SamplerKind::kGl;
              });
 }
 

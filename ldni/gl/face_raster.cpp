@@ -1,6 +1,5 @@
 #include "ldni/gl/face_raster.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
 
@@ -12,10 +11,8 @@
 namespace lamina::ldni {
 namespace {
 
-// Fragments of a picture, at most: with the counter before them 128 MiB, the
-// largest buffer that Mesa lets a shader write.
-constexpr std::uint32_t kMostFragments = (1U << 24) - 1;
-constexpr std::uint32_t kFirstFragments = 1U << 16;
+// Fragments of a picture, at most: 128 MiB.
+constexpr std::size_t kMostFragments = 1U << 24;
 
 // From pixels to the viewport, which begins a margin before the picture. All
 // factors are powers of two: corners arrive as they were sent.
@@ -29,22 +26,6 @@ void main() {{
 )",
                      kPictureMargin, kViewportSize / 2);
 }
-
-constexpr const char* kListShader = R"(#version 430 core
-layout(std430, binding = 0) buffer Fragments {
-  uint count;
-  uvec2 fragments[];
-};
-uniform uint capacity;
-uniform uint width;
-void main() {
-  uint place = atomicAdd(count, 1u);
-  if (place >= capacity) return;
-  uint pixel = uint(gl_FragCoord.y) * width + uint(gl_FragCoord.x);
-  uint side = gl_FrontFacing ? 1u : 0u;
-  fragments[place] = uvec2(pixel, uint(gl_PrimitiveID) << 1 | side);
-}
-)";
 
 // Colours are depth and face: the order of peeling. A pixel of which nothing is
 // left keeps the greatest colour, behind which there is nothing. The shader
@@ -64,17 +45,18 @@ void main() {
 }
 )";
 
-// A context that draws triangles by one program.
-class Drawer {
+class PeelingRaster final : public FaceRaster {
  public:
-  Drawer(const GlPlatform& platform, GlMethod method,
-         const char* fragment_shader)
-      : context_(platform.make_context(least_version(method))),
-        gl_(context_->functions()) {
+  explicit PeelingRaster(const GlPlatform& platform)
+      : context_(platform.make_context()), gl_(context_->functions()) {
     const GlScope scope(*context_);
     corners_ = make_buffer(gl_);
     array_ = make_vertex_array(gl_);
-    program_ = make_program(gl_, vertex_shader(), fragment_shader);
+    program_ = make_program(gl_, vertex_shader(), kPeelShader);
+    depths_ = make_texture(gl_);
+    for (Peel& peel : peels_) {
+      peel = {make_texture(gl_), make_framebuffer(gl_)};
+    }
     gl_.BindVertexArray(array_.name());
     gl_.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
     gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(RasterCorner),
@@ -83,145 +65,29 @@ class Drawer {
     gl_.UseProgram(program_.name());
     gl_.Viewport(-kPictureMargin, -kPictureMargin, kViewportSize,
                  kViewportSize);
-    check_gl(gl_);
-  }
-
-  GlContext& context() { return *context_; }
-  const GlFunctions& gl() const { return gl_; }
-  GLint uniform(const char* name) const {
-    return gl_.GetUniformLocation(program_.name(), name);
-  }
-
-  void upload(std::span<const RasterCorner> corners) {
-    corner_count_ = static_cast<GLsizei>(corners.size());
-    gl_.BufferData(GL_ARRAY_BUFFER,
-                   static_cast<GLsizeiptr>(corners.size_bytes()),
-                   corners.data(), GL_STREAM_DRAW);
-  }
-  void draw() { gl_.DrawArrays(GL_TRIANGLES, 0, corner_count_); }
-
-  // Deletes all objects; the context must be current.
-  void clear() {
-    program_ = {};
-    array_ = {};
-    corners_ = {};
-  }
-
- private:
-  std::unique_ptr<GlContext> context_;
-  const GlFunctions& gl_;
-  GlObject corners_;
-  GlObject array_;
-  GlObject program_;
-  GLsizei corner_count_ = 0;
-};
-
-class ListRaster final : public FaceRaster {
- public:
-  explicit ListRaster(const GlPlatform& platform)
-      : drawer_(platform, GlMethod::kList, kListShader), gl_(drawer_.gl()) {
-    const GlScope scope(drawer_.context());
-    picture_ = make_framebuffer(gl_);
-    list_ = make_buffer(gl_);
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.name());
-    gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, list_.name());
-    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, list_.name());
-    reserve(kFirstFragments);
-    check_gl(gl_);
-  }
-  ~ListRaster() override {
-    const GlScope scope(drawer_.context());
-    list_ = {};
-    picture_ = {};
-    drawer_.clear();
-  }
-
-  bool draw(std::span<const RasterCorner> corners, int width, int height,
-            std::vector<Fragment>& fragments) override {
-    const GlScope scope(drawer_.context());
-    gl_.FramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH,
-                              width);
-    gl_.FramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT,
-                              height);
-    gl_.Uniform1ui(drawer_.uniform("width"), static_cast<GLuint>(width));
-    drawer_.upload(corners);
-    std::uint32_t count = count_fragments();
-    if (count > capacity_) {
-      if (count > kMostFragments) return false;
-      reserve(std::min(count + count / 4, kMostFragments));
-      count = count_fragments();
-    }
-    fetch(count, fragments);
-    return true;
-  }
-
- private:
-  // The counter, padded to the alignment of what follows it.
-  static constexpr GLintptr kHeader = sizeof(Fragment);
-
-  void reserve(std::uint32_t capacity) {
-    capacity_ = capacity;
-    gl_.BufferData(
-        GL_SHADER_STORAGE_BUFFER,
-        kHeader + GLsizeiptr{capacity} * GLsizeiptr{sizeof(Fragment)}, nullptr,
-        GL_STREAM_READ);
-    gl_.Uniform1ui(drawer_.uniform("capacity"), capacity);
-  }
-
-  // Draws, and returns the number of fragments. Those beyond the capacity are
-  // only counted.
-  std::uint32_t count_fragments() {
-    std::uint32_t count = 0;
-    gl_.BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof(count), &count);
-    drawer_.draw();
-    gl_.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl_.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof(count), &count);
-    check_gl(gl_);
-    return count;
-  }
-
-  void fetch(std::uint32_t count, std::vector<Fragment>& fragments) {
-    if (count == 0) return;
-    const std::size_t begin = fragments.size();
-    fragments.resize(begin + count);
-    gl_.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, kHeader,
-                         GLsizeiptr{count} * GLsizeiptr{sizeof(Fragment)},
-                         fragments.data() + begin);
-  }
-
-  Drawer drawer_;
-  const GlFunctions& gl_;
-  GlObject picture_;  // a size, and no pixels
-  GlObject list_;
-  std::uint32_t capacity_ = 0;
-};
-
-class PeelingRaster final : public FaceRaster {
- public:
-  explicit PeelingRaster(const GlPlatform& platform)
-      : drawer_(platform, GlMethod::kPeeling, kPeelShader), gl_(drawer_.gl()) {
-    const GlScope scope(drawer_.context());
-    depths_ = make_texture(gl_);
-    for (Peel& peel : peels_) {
-      peel = {make_texture(gl_), make_framebuffer(gl_)};
-    }
     gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(GL_LESS);
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
     check_gl(gl_);
   }
   ~PeelingRaster() override {
-    const GlScope scope(drawer_.context());
+    // Objects delete themselves in their context.
+    const GlScope scope(*context_);
     for (Peel& peel : peels_) peel = {};
     depths_ = {};
-    drawer_.clear();
+    program_ = {};
+    array_ = {};
+    corners_ = {};
   }
 
   bool draw(std::span<const RasterCorner> corners, int width, int height,
             std::vector<Fragment>& fragments) override {
-    const GlScope scope(drawer_.context());
+    const GlScope scope(*context_);
     resize(width, height);
-    drawer_.upload(corners);
+    gl_.BufferData(GL_ARRAY_BUFFER,
+                   static_cast<GLsizeiptr>(corners.size_bytes()),
+                   corners.data(), GL_STREAM_DRAW);
+    corner_count_ = static_cast<GLsizei>(corners.size());
     clear(peels_[1], 0);
     const std::size_t begin = fragments.size();
     for (std::size_t pass = 0;; ++pass) {
@@ -287,7 +153,7 @@ class PeelingRaster final : public FaceRaster {
   void draw_peel(const Peel& peeled, const Peel& target) {
     clear(target, kNothing);
     gl_.BindTexture(GL_TEXTURE_2D, peeled.pixels.name());
-    drawer_.draw();
+    gl_.DrawArrays(GL_TRIANGLES, 0, corner_count_);
     check_gl(gl_);
   }
 
@@ -302,9 +168,13 @@ class PeelingRaster final : public FaceRaster {
     }
   }
 
-  Drawer drawer_;
+  std::unique_ptr<GlContext> context_;
   const GlFunctions& gl_;
+  GlObject corners_;
+  GlObject array_;
+  GlObject program_;
   GlObject depths_;
+  GLsizei corner_count_ = 0;
   std::array<Peel, 2> peels_;
   int width_ = 0;
   int height_ = 0;
@@ -313,13 +183,7 @@ class PeelingRaster final : public FaceRaster {
 
 }  // namespace
 
-GlVersion least_version(GlMethod method) {
-  return method == GlMethod::kList ? GlVersion{4, 3} : GlVersion{3, 3};
-}
-
-std::unique_ptr<FaceRaster> make_face_raster(const GlPlatform& platform,
-                                             GlMethod method) {
-  if (method == GlMethod::kList) return std::make_unique<ListRaster>(platform);
+std::unique_ptr<FaceRaster> make_face_raster(const GlPlatform& platform) {
   return std::make_unique<PeelingRaster>(platform);
 }
 

@@ -7,16 +7,11 @@
 // 100 mm, so that faces of two leaves which coincide would no longer tie
 // (kTieDistance), and leave skins; and what is read back is a third.
 //
-// There are two ways to get all the fragments of a pixel.
-//
-// A list: each fragment is appended to a buffer, where an atomic counter says.
-// That takes one pass, whatever the depth, and OpenGL 4.3.
-//
-// Peeling, as the paper has it: pass k keeps the nearest fragment behind the
-// one of pass k-1, until nothing is left. The order is by depth and then by
-// face, since of faces that coincide all but one would be lost otherwise.
-// Depths are floats of 32 bits: a buffer of 24 rounds them, so that a fragment
-// lies behind itself and peeling never ends.
+// All fragments of a pixel are found by depth peeling, as in the paper: pass k
+// keeps the nearest fragment behind the one of pass k-1, until nothing is left.
+// The order is by depth and then by face, since of faces that coincide all but
+// one would be lost otherwise. Depths are floats of 32 bits: a buffer of 24
+// rounds them, so that a fragment lies behind itself and peeling never ends.
 
 #include <cstdint>
 #include <memory>
@@ -75,12 +70,6 @@ class FaceRaster {
                     int height, std::vector<Fragment>& fragments) = 0;
 };
 
-enum class GlMethod : std::uint8_t { kList, kPeeling };
-
-// The least version of OpenGL that a method needs.
-GlVersion least_version(GlMethod method);
-
-std::unique_ptr<FaceRaster> make_face_raster(const GlPlatform& platform,
-                                             GlMethod method);
+std::unique_ptr<FaceRaster> make_face_raster(const GlPlatform& platform);
 
 }  // namespace lamina::ldni

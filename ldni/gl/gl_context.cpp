@@ -36,8 +36,8 @@ GlScope::GlScope(GlContext& context) : context_(context) {
 
 GlScope::~GlScope() { context_.release(); }
 
-std::unique_ptr<GlContext> GlPlatform::make_context(GlVersion least) const {
-  std::unique_ptr<GlContext> context = create(least);
+std::unique_ptr<GlContext> GlPlatform::make_context() const {
+  std::unique_ptr<GlContext> context = create();
   const GlScope scope(*context);
   context->functions_ =
       std::make_shared<const GlFunctions>(load_functions(finder()));
@@ -51,10 +51,10 @@ std::string renderer_name(GlContext& context) {
   return name == nullptr ? "" : reinterpret_cast<const char*>(name);
 }
 
-std::shared_ptr<const GlPlatform> open_gl(GlVersion least) {
+std::shared_ptr<const GlPlatform> open_gl() {
   setenv("LP_NUM_THREADS", "0", 0);
   try {
-    return open_egl(EglDevice::kHardware, least);
+    return open_egl(EglDevice::kHardware);
   } catch (const FileError&) {
     return open_osmesa();
   }

@@ -16,11 +16,9 @@ namespace lamina::ldni {
 struct GlFunctions;
 using GlSymbol = void (*)();
 
-// A version of OpenGL; the least that is of use.
-struct GlVersion {
-  int major = 3;
-  int minor = 3;
-};
+// The version of OpenGL that is asked for.
+inline constexpr int kGlMajor = 3;
+inline constexpr int kGlMinor = 3;
 
 // A context of OpenGL, with its objects. It is for one thread at a time, while
 // a GlScope of that thread lives, and may outlive its platform.
@@ -58,14 +56,14 @@ class GlPlatform {
 
   // Throws FileError where there is no context of that version with the
   // precision that a sampler needs.
-  std::unique_ptr<GlContext> make_context(GlVersion least) const;
+  std::unique_ptr<GlContext> make_context() const;
 
  protected:
   // Finds a function of OpenGL; null where no function has that name.
   using Finder = std::function<GlSymbol(const char* name)>;
 
  private:
-  virtual std::unique_ptr<GlContext> create(GlVersion least) const = 0;
+  virtual std::unique_ptr<GlContext> create() const = 0;
   virtual Finder finder() const = 0;
 };
 
@@ -76,11 +74,11 @@ std::string renderer_name(GlContext& context);
 // else OSMesa. Throws FileError, with the package that is missing, where
 // neither can be opened. To be called before threads are started: it may set
 // LP_NUM_THREADS.
-std::shared_ptr<const GlPlatform> open_gl(GlVersion least);
+std::shared_ptr<const GlPlatform> open_gl();
 
 // Both throw FileError where there is no such platform.
 std::shared_ptr<const GlPlatform> open_osmesa();
 enum class EglDevice { kHardware, kAny };
-std::shared_ptr<const GlPlatform> open_egl(EglDevice device, GlVersion least);
+std::shared_ptr<const GlPlatform> open_egl(EglDevice device);
 
 }  // namespace lamina::ldni

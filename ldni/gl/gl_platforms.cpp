@@ -89,19 +89,19 @@ class OsMesaContext final : public GlContext {
 
 class OsMesaPlatform final : public GlPlatform {
  private:
-  std::unique_ptr<GlContext> create(GlVersion least) const override {
+  std::unique_ptr<GlContext> create() const override {
     const std::array<int, 11> attributes = {OSMESA_FORMAT,
                                             OSMESA_RGBA,
                                             OSMESA_PROFILE,
                                             OSMESA_CORE_PROFILE,
                                             OSMESA_CONTEXT_MAJOR_VERSION,
-                                            least.major,
+                                            kGlMajor,
                                             OSMESA_CONTEXT_MINOR_VERSION,
-                                            least.minor,
+                                            kGlMinor,
                                             0};
     const OSMesaContext context = osmesa_->create(attributes.data(), nullptr);
     if (context == nullptr) {
-      fail(fmt::format("OSMesa has no OpenGL {}.{}", least.major, least.minor));
+      fail(fmt::format("OSMesa has no OpenGL {}.{}", kGlMajor, kGlMinor));
     }
     return std::make_unique<OsMesaContext>(osmesa_, context);
   }
@@ -178,12 +178,12 @@ class EglPlatform final : public GlPlatform {
       : egl_(std::move(egl)), display_(display) {}
 
  private:
-  std::unique_ptr<GlContext> create(GlVersion least) const override {
+  std::unique_ptr<GlContext> create() const override {
     const std::array<EGLint, 7> attributes = {
         EGL_CONTEXT_MAJOR_VERSION,
-        least.major,
+        kGlMajor,
         EGL_CONTEXT_MINOR_VERSION,
-        least.minor,
+        kGlMinor,
         EGL_CONTEXT_OPENGL_PROFILE_MASK,
         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
         EGL_NONE};
@@ -191,7 +191,7 @@ class EglPlatform final : public GlPlatform {
     const EGLContext context = egl_->create_context(
         display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
     if (context == EGL_NO_CONTEXT) {
-      fail(fmt::format("EGL has no OpenGL {}.{}", least.major, least.minor));
+      fail(fmt::format("EGL has no OpenGL {}.{}", kGlMajor, kGlMinor));
     }
     return std::make_unique<EglContext>(egl_, display_, context);
   }
@@ -228,7 +228,7 @@ std::vector<EGLDeviceEXT> list_devices(const EglFunctions& egl) {
 // Returns null where `device` is not of the wanted kind.
 std::shared_ptr<const GlPlatform> open_device(
     const std::shared_ptr<const EglFunctions>& egl, EGLDeviceEXT device,
-    EglDevice wanted, GlVersion least) {
+    EglDevice wanted) {
   const bool wants_hardware = wanted == EglDevice::kHardware;
   if (wants_hardware &&
       has_word(egl->query_device_string(device, EGL_EXTENSIONS),
@@ -240,7 +240,7 @@ std::shared_ptr<const GlPlatform> open_device(
   if (egl->initialize(display, nullptr, nullptr) == EGL_FALSE) return nullptr;
   auto platform = std::make_shared<EglPlatform>(egl, display);
   try {
-    const auto context = platform->make_context(least);
+    const auto context = platform->make_context();
     if (wants_hardware && is_software(*context)) return nullptr;
   } catch (const FileError&) {
     return nullptr;
@@ -254,15 +254,14 @@ std::shared_ptr<const GlPlatform> open_osmesa() {
   return std::make_shared<OsMesaPlatform>();
 }
 
-std::shared_ptr<const GlPlatform> open_egl(EglDevice device, GlVersion least) {
+std::shared_ptr<const GlPlatform> open_egl(EglDevice device) {
   const auto egl = std::make_shared<const EglFunctions>();
   for (const EGLDeviceEXT candidate : list_devices(*egl)) {
-    if (auto platform = open_device(egl, candidate, device, least)) {
+    if (auto platform = open_device(egl, candidate, device)) {
       return platform;
     }
   }
-  fail(fmt::format("EGL has no device with OpenGL {}.{}", least.major,
-                   least.minor));
+  fail(fmt::format("EGL has no device with OpenGL {}.{}", kGlMajor, kGlMinor));
 }
 
 }  // namespace lamina::ldni

@@ -5,8 +5,6 @@
 namespace lamina::ldni {
 namespace {
 
-constexpr GlVersion kLeastVersion = {3, 3};
-
 // Rows are read from the bottom up: what is up is drawn down.
 constexpr const char* kVertexShader = R"(#version 330 core
 uniform mat4 clip_from_world;
@@ -34,7 +32,7 @@ void main() {
 
 struct PointRaster::State {
   State(const GlPlatform& platform, unsigned width_in, unsigned height_in)
-      : context(platform.make_context(kLeastVersion)),
+      : context(platform.make_context()),
         gl(context->functions()),
         width(static_cast<GLsizei>(width_in)),
         height(static_cast<GLsizei>(height_in)) {}

@@ -31,10 +31,6 @@ GridBox sample_box(const PaperPlan& plan, const csg::Instance& instance) {
   return global_box(plan.rays, plan.layers);
 }
 
-GlMethod gl_method(SamplerKind kind) {
-  return kind == SamplerKind::kGlPeeling ? GlMethod::kPeeling : GlMethod::kList;
-}
-
 std::uint32_t choose_layers_per_block(const PaperPlan& plan) {
   std::uint64_t pixels = 0;  // of the whole job
   for (const csg::Instance& instance : plan.scene.instances) {
@@ -70,9 +66,8 @@ PaperPlan make_paper_plan(const csg::Scene& scene, const LayerGrid& layers,
                     make_rays(scene, pitch)};
   plan.layers_per_block = choose_layers_per_block(plan);
   if (plan.sampler == SamplerKind::kScanline) return plan;
-  const GlVersion version = least_version(gl_method(plan.sampler));
-  plan.gl = open_gl(version);
-  plan.renderer = renderer_name(*plan.gl->make_context(version));
+  plan.gl = open_gl();
+  plan.renderer = renderer_name(*plan.gl->make_context());
   return plan;
 }
 
@@ -80,8 +75,7 @@ std::unique_ptr<Sampler> PaperPlan::make_sampler() const {
   if (sampler == SamplerKind::kScanline) {
     return make_scanline_sampler(scene, rays, layers);
   }
-  return make_gl_sampler(scene, rays, layers,
-                         make_face_raster(*gl, gl_method(sampler)));
+  return make_gl_sampler(scene, rays, layers, make_face_raster(*gl));
 }
 
 PaperSlicer::PaperSlicer(const PaperPlan& plan)
@@ -97,19 +91,11 @@ PaperCounts PaperSlicer::counts() const {
 
 void PaperSlicer::sample_block(std::uint32_t first_layer,
                                std::uint32_t layer_count) {
-  leaves_.clear();
+  images_.clear();
   for (std::uint32_t i = 0; i < plan_.scene.instances.size(); ++i) {
     const GridBox box = clip_to_layers(
         sample_box(plan_, plan_.scene.instances[i]), first_layer, layer_count);
-    if (!box.is_empty()) leaves_.push_back({i, box});
-  }
-  images_.clear();
-  // Peeling is the paper's: each leaf by itself. In one picture it would take
-  // as many passes as all leaves together have faces over a pixel.
-  const std::size_t together =
-      plan_.sampler == SamplerKind::kGlPeeling ? 1 : leaves_.size();
-  for (std::size_t i = 0; i < leaves_.size(); i += together) {
-    sampler_->sample(std::span(leaves_).subspan(i, together), images_);
+    if (!box.is_empty()) sampler_->sample({i, box}, images_);
   }
   for (const LeafImage& image : images_.images) {
     LeafImageSize& leaf = counts_.leaves[image.instance];

@@ -52,7 +52,7 @@ struct PaperPlan {
   // Layers that a block should hold at most: it keeps the depth images of all
   // leaves that it meets.
   std::uint32_t layers_per_block = 1;
-  // Of the GL samplers: where contexts come from, and what draws.
+  // Where contexts come from, and what draws; nothing for the exact sampler.
   std::shared_ptr<const GlPlatform> gl = {};
   std::string renderer = {};
 };
@@ -87,10 +87,9 @@ class PaperSlicer {
   std::unique_ptr<Sampler> sampler_;
   RayBoolean boolean_;
   LoopBuilder loop_builder_;
-  std::vector<LeafBox> leaves_;  // of the block
-  LeafImages images_;            // of them
+  LeafImages images_;  // of the leaves in the block
 
-  // Of the layer at hand: the samples of all leaves, ray by ray.
+  // The samples of all leaves in a layer, ray by ray.
   std::vector<std::uint32_t> ray_ends_;
   std::vector<Sample> samples_;
   LayerIntervals intervals_;

@@ -44,23 +44,14 @@ GridBox local_box(const Box3& box, const RayGrid& rays,
   return result;
 }
 
-GridBox intersection(const GridBox& a, const GridBox& b) {
-  GridBox result;
-  result.ray_start = std::max(a.ray_start, b.ray_start);
-  result.layer_start = std::max(a.layer_start, b.layer_start);
-  const std::uint32_t ray_end = std::min(a.ray_end(), b.ray_end());
-  const std::uint32_t layer_end = std::min(a.layer_end(), b.layer_end());
-  if (ray_end > result.ray_start) result.ray_count = ray_end - result.ray_start;
-  if (layer_end > result.layer_start) {
-    result.layer_count = layer_end - result.layer_start;
-  }
-  return result;
-}
-
 GridBox clip_to_layers(const GridBox& box, std::uint32_t first_layer,
                        std::uint32_t layer_count) {
-  return intersection(box,
-                      {box.ray_start, box.ray_count, first_layer, layer_count});
+  GridBox result = box;
+  result.layer_start = std::max(box.layer_start, first_layer);
+  const std::uint32_t end =
+      std::min(box.layer_end(), first_layer + layer_count);
+  result.layer_count = end > result.layer_start ? end - result.layer_start : 0;
+  return result;
 }
 
 }  // namespace lamina::ldni

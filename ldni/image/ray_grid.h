@@ -60,10 +60,6 @@ struct GridBox {
   std::uint32_t ray_end() const { return ray_start + ray_count; }
   std::uint32_t layer_end() const { return layer_start + layer_count; }
   bool is_empty() const { return ray_count == 0 || layer_count == 0; }
-  bool contains(std::uint32_t layer, std::uint32_t ray) const {
-    return layer >= layer_start && layer < layer_end() && ray >= ray_start &&
-           ray < ray_end();
-  }
   // Rays of all layers together.
   std::size_t pixel_count() const {
     return std::size_t{ray_count} * layer_count;
@@ -80,9 +76,6 @@ GridBox global_box(const RayGrid& rays, const LayerGrid& layers);
 // rounding of its bounds.
 GridBox local_box(const Box3& box, const RayGrid& rays,
                   const LayerGrid& layers);
-
-// Returns what two boxes share.
-GridBox intersection(const GridBox& a, const GridBox& b);
 
 // Returns the part of `box` in layers [first_layer, first_layer + layer_count).
 GridBox clip_to_layers(const GridBox& box, std::uint32_t first_layer,

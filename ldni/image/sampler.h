@@ -51,23 +51,22 @@ struct LeafImages {
   }
 };
 
-// How the samples are made: exactly, or drawn by OpenGL, by a list of fragments
-// or by the paper's depth peeling.
-enum class SamplerKind { kScanline, kGl, kGlPeeling };
+// How the samples are made: exactly, or drawn by OpenGL.
+enum class SamplerKind : std::uint8_t { kScanline, kGl };
 
 // Their names, in this order, in options and reports.
-inline constexpr std::array<std::string_view, 3> kSamplerNames = {
-    "scanline", "gl", "gl-peeling"};
+inline constexpr std::array<std::string_view, 2> kSamplerNames = {"scanline",
+                                                                  "gl"};
 
 // One object per thread: it owns scratch, or a graphics context.
 class Sampler {
  public:
   virtual ~Sampler() = default;
 
-  // Appends the image of each leaf, in their order. Every pixel gets as many
-  // entries as exits, in no particular order; a vertex on a section counts as
-  // below it (LayerGrid::layers_below).
-  virtual void sample(std::span<const LeafBox> leaves, LeafImages& out) = 0;
+  // Appends the image of a leaf. Every pixel gets as many entries as exits, in
+  // no particular order; a vertex on a section counts as below it
+  // (LayerGrid::layers_below).
+  virtual void sample(const LeafBox& leaf, LeafImages& out) = 0;
 
   // Pixels so far that had to be sampled another way to keep this contract.
   virtual std::uint64_t repaired_pixels() const { return 0; }
@@ -86,13 +85,9 @@ std::unique_ptr<Sampler> make_scanline_sampler(const csg::Scene& scene,
 // The sampler of Zeng et al. 2011, by OpenGL. Scene and grids must outlive it;
 // layers must be of equal thickness.
 //
-// Leaves that are sampled in one call are drawn together, each in its place, so
-// that many small ones cost few drawings.
-//
 // Cost of an image: the leaf's vertices and triangles, made for it if it is a
-// loft; its share of a drawing of those that can cover a pixel; the samples,
-// the pixels of the box. Memory: for the leaves that are drawn together, and at
-// most 128 MiB for what is drawn at a time.
+// loft; a drawing and a picture for each peel; the samples. Memory: at most 128
+// MiB for what is drawn at a time.
 std::unique_ptr<Sampler> make_gl_sampler(const csg::Scene& scene,
                                          const RayGrid& rays,
                                          const LayerGrid& layers,

@@ -54,7 +54,8 @@ struct Segment {
   Vec2 end;
 };
 
-// Unit normal of a planar polygon, counter-clockwise as seen from its tip.
+// Returns the unit normal of a planar polygon, which runs counter-clockwise as
+// seen from its tip.
 Vec3 polygon_normal(std::span<const Corner> corners) {
   const Vec3 origin = corners[0].position;
   Vec3 sum(0);
@@ -78,12 +79,9 @@ class ScanlineSampler final : public Sampler {
                   const LayerGrid& layers)
       : scene_(scene), rays_(rays), layers_(layers) {}
 
-  void sample(std::span<const LeafBox> leaves, LeafImages& out) override {
-    for (const LeafBox& leaf : leaves) sample_leaf(leaf, out);
-  }
+  void sample(const LeafBox& leaf_box, LeafImages& out) override;
 
  private:
-  void sample_leaf(const LeafBox& leaf_box, LeafImages& out);
   void sample_loft(const csg::Loft& loft, bool is_inside_out);
   void place_loft(const csg::Loft& loft);
   void fill_ring(std::size_t ring, std::vector<std::uint32_t>& levels) const;
@@ -109,14 +107,14 @@ class ScanlineSampler final : public Sampler {
   const RayGrid& rays_;
   const LayerGrid& layers_;
 
-  // The leaf at hand.
+  // The leaf that is sampled.
   std::uint32_t instance_ = 0;
   Affine world_from_leaf_{1.0};
   GridBox box_;
   std::vector<Sample> samples_;        // in the order of the faces
   std::vector<std::uint32_t> pixels_;  // of the samples
 
-  // The loft at hand: vertex (i, j) = scale_i · outline_j + centre_i.
+  // Its loft: vertex (i, j) = scale_i · outline_j + centre_i.
   std::vector<double> scales_;
   std::vector<Vec3> centres_;
   std::vector<Vec3> outline_;
@@ -125,10 +123,10 @@ class ScanlineSampler final : public Sampler {
   std::vector<std::uint32_t> high_levels_;
   std::size_t filled_ring_ = 0;  // the ring of high_levels_
 
-  // The mesh at hand.
+  // Its mesh.
   std::vector<Corner> vertices_;
 
-  // The face at hand.
+  // Its face.
   bool has_normal_ = false;
   Vec3 normal_{0};
   std::vector<Corner> cap_;
@@ -136,7 +134,7 @@ class ScanlineSampler final : public Sampler {
   std::vector<Vec2> ends_;
 };
 
-void ScanlineSampler::sample_leaf(const LeafBox& leaf_box, LeafImages& out) {
+void ScanlineSampler::sample(const LeafBox& leaf_box, LeafImages& out) {
   const csg::Instance& placed = scene_.instances[leaf_box.instance];
   const csg::Leaf& leaf = scene_.leaves[placed.leaf];
   instance_ = leaf_box.instance;
@@ -196,7 +194,7 @@ void ScanlineSampler::place_loft(const csg::Loft& loft) {
   }
 }
 
-// Levels of a ring's vertices.
+// Finds the levels of a ring's vertices.
 void ScanlineSampler::fill_ring(std::size_t ring,
                                 std::vector<std::uint32_t>& levels) const {
   const auto [low, high] = ring_levels_[ring];
@@ -208,7 +206,7 @@ void ScanlineSampler::fill_ring(std::size_t ring,
   }
 }
 
-// Side quads between two rings.
+// Samples the side quads between two rings.
 void ScanlineSampler::cross_strip(std::size_t low, std::size_t high,
                                   bool is_inside_out) {
   const LevelRange a = ring_levels_[low];
@@ -353,7 +351,7 @@ void ScanlineSampler::cross_segment(const Segment& segment, std::uint32_t layer,
   }
 }
 
-// Counting sort of the samples at hand to the end of `out`.
+// Appends the samples to `out` by a counting sort.
 void ScanlineSampler::sort_by_pixel(LeafImages& out) {
   const std::size_t first_sample = out.samples.size();
   const std::size_t first_pixel = out.ends.size();

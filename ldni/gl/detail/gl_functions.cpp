@@ -38,10 +38,6 @@ GlFunctions load_functions(
 #define LAMINA_GL_LOAD(type, name) load(gl.name, "gl" #name);
   LAMINA_GL_FUNCTIONS(LAMINA_GL_LOAD)
 #undef LAMINA_GL_LOAD
-  gl.FramebufferParameteri = reinterpret_cast<PFNGLFRAMEBUFFERPARAMETERIPROC>(
-      find("glFramebufferParameteri"));
-  gl.MemoryBarrier =
-      reinterpret_cast<PFNGLMEMORYBARRIERPROC>(find("glMemoryBarrier"));
   return gl;
 }
 

@@ -17,12 +17,10 @@ namespace lamina::ldni {
 #define LAMINA_GL_FUNCTIONS(X)                                 \
   X(PFNGLATTACHSHADERPROC, AttachShader)                       \
   X(PFNGLBINDBUFFERPROC, BindBuffer)                           \
-  X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                   \
   X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
   X(PFNGLBINDTEXTUREPROC, BindTexture)                         \
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
   X(PFNGLBUFFERDATAPROC, BufferData)                           \
-  X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                     \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
   X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                     \
   X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                   \
@@ -44,7 +42,6 @@ namespace lamina::ldni {
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
   X(PFNGLGENTEXTURESPROC, GenTextures)                         \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
-  X(PFNGLGETBUFFERSUBDATAPROC, GetBufferSubData)               \
   X(PFNGLGETERRORPROC, GetError)                               \
   X(PFNGLGETINTEGERVPROC, GetIntegerv)                         \
   X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
@@ -57,7 +54,6 @@ namespace lamina::ldni {
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
-  X(PFNGLUNIFORM1UIPROC, Uniform1ui)                           \
   X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)               \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
@@ -67,9 +63,6 @@ struct GlFunctions {
 #define LAMINA_GL_MEMBER(type, name) type name = nullptr;
   LAMINA_GL_FUNCTIONS(LAMINA_GL_MEMBER)
 #undef LAMINA_GL_MEMBER
-  // Null before OpenGL 4.3.
-  PFNGLFRAMEBUFFERPARAMETERIPROC FramebufferParameteri = nullptr;
-  PFNGLMEMORYBARRIERPROC MemoryBarrier = nullptr;
 };
 
 // Throws FileError if one is missing.

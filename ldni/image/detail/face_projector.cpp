@@ -59,27 +59,20 @@ void cut(std::vector<Vec3>& polygon, int axis, double bound, Keep keep) {
 
 }  // namespace
 
-void FaceProjector::clear() {
-  leaves_.clear();
+void FaceProjector::place(const csg::Mesh& mesh,
+                          const Affine& world_from_leaf) {
+  mesh_ = &mesh;
+  is_mirrored_ = glm::determinant(glm::dmat3(world_from_leaf)) < 0;
+  nearest_ = std::numeric_limits<double>::max();
+  farthest_ = std::numeric_limits<double>::lowest();
   vertices_.clear();
-}
-
-void FaceProjector::place(const csg::Mesh& mesh, const Affine& world_from_leaf,
-                          const GridBox& box) {
-  Leaf leaf = {&mesh,
-               box,
-               glm::determinant(glm::dmat3(world_from_leaf)) < 0,
-               vertices_.size(),
-               std::numeric_limits<double>::max(),
-               std::numeric_limits<double>::lowest()};
   for (const Vec3& vertex : mesh.vertices) {
     const Vec3 position = world_from_leaf * Vec4(vertex, 1);
     vertices_.push_back({position, rays_.rays_below(position.x),
                          layers_.layers_below(position.z)});
-    leaf.nearest = std::min(leaf.nearest, position.y);
-    leaf.farthest = std::max(leaf.farthest, position.y);
+    nearest_ = std::min(nearest_, position.y);
+    farthest_ = std::max(farthest_, position.y);
   }
-  leaves_.push_back(leaf);
 }
 
 void FaceProjector::project(const GridBox& picture) {
@@ -87,42 +80,34 @@ void FaceProjector::project(const GridBox& picture) {
   set_reach();
   corners_.clear();
   faces_.clear();
-  for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-    const std::size_t count = leaves_[leaf].mesh->triangles.size();
-    visible_ = intersection(picture, leaves_[leaf].box);
-    if (visible_.is_empty()) continue;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (can_meet({leaf, i})) add_face({leaf, i});
-    }
+  for (std::uint32_t face = 0; face < mesh_->triangles.size(); ++face) {
+    if (can_meet(face)) add_face(face);
   }
 }
 
-// Whether a face can meet a visible ray: most faces of a fine mesh cannot.
-bool FaceProjector::can_meet(const Face& face) const {
-  const Leaf& leaf = leaves_[face.leaf];
-  const Vertex* const vertices = vertices_.data() + leaf.first_vertex;
-  const auto& triangle = leaf.mesh->triangles[face.triangle];
-  const Vertex& a = vertices[triangle[0]];
-  const Vertex& b = vertices[triangle[1]];
-  const Vertex& c = vertices[triangle[2]];
+// Whether a face can meet a ray of the picture: most faces of a fine mesh
+// cannot.
+bool FaceProjector::can_meet(std::uint32_t face) const {
+  const auto& triangle = mesh_->triangles[face];
+  const Vertex& a = vertices_[triangle[0]];
+  const Vertex& b = vertices_[triangle[1]];
+  const Vertex& c = vertices_[triangle[2]];
   const auto [bottom, top] =
       std::minmax({a.layers_below, b.layers_below, c.layers_below});
-  if (bottom == top || bottom >= visible_.layer_end() ||
-      top <= visible_.layer_start) {
+  if (bottom == top || bottom >= picture_.layer_end() ||
+      top <= picture_.layer_start) {
     return false;
   }
   const auto [left, right] =
       std::minmax({a.rays_below, b.rays_below, c.rays_below});
-  return left != right && left < visible_.ray_end() &&
-         right > visible_.ray_start;
+  return left != right && left < picture_.ray_end() &&
+         right > picture_.ray_start;
 }
 
-std::array<Vec3, 3> FaceProjector::corners_of(const Face& face) const {
-  const Leaf& leaf = leaves_[face.leaf];
-  const Vertex* const vertices = vertices_.data() + leaf.first_vertex;
-  auto [a, b, c] = leaf.mesh->triangles[face.triangle];
-  if (leaf.is_mirrored) std::swap(b, c);
-  return {vertices[a].position, vertices[b].position, vertices[c].position};
+std::array<Vec3, 3> FaceProjector::corners_of(std::uint32_t face) const {
+  auto [a, b, c] = mesh_->triangles[face];
+  if (is_mirrored_) std::swap(b, c);
+  return {vertices_[a].position, vertices_[b].position, vertices_[c].position};
 }
 
 void FaceProjector::set_reach() {
@@ -140,7 +125,7 @@ bool FaceProjector::is_in_reach(const Vec3& position) const {
          position.z >= reach_low_.z && position.z <= reach_high_.z;
 }
 
-void FaceProjector::add_face(const Face& face) {
+void FaceProjector::add_face(std::uint32_t face) {
   const std::array<Vec3, 3> corners = corners_of(face);
   if (std::all_of(corners.begin(), corners.end(),
                   [this](const Vec3& p) { return is_in_reach(p); })) {
@@ -150,7 +135,7 @@ void FaceProjector::add_face(const Face& face) {
   }
 }
 
-void FaceProjector::cut_face(const Face& face) {
+void FaceProjector::cut_face(std::uint32_t face) {
   const std::array<Vec3, 3> corners = corners_of(face);
   polygon_.assign(corners.begin(), corners.end());
   for (const int axis : {0, 2}) {
@@ -162,22 +147,21 @@ void FaceProjector::cut_face(const Face& face) {
   }
 }
 
-void FaceProjector::add_triangle(const Face& face,
+void FaceProjector::add_triangle(std::uint32_t face,
                                  const std::array<Vec3, 3>& corners) {
   for (const Vec3& corner : corners) {
-    corners_.push_back(raster_corner(leaves_[face.leaf], corner));
+    corners_.push_back(raster_corner(corner));
   }
   faces_.push_back(face);
 }
 
-RasterCorner FaceProjector::raster_corner(const Leaf& leaf,
-                                          const Vec3& position) const {
+RasterCorner FaceProjector::raster_corner(const Vec3& position) const {
   const double column = (position.x - rays_.ray_x(0)) / rays_.pitch() + 0.5;
   const double row =
       (position.z - layers_.section_z(0)) / layers_.thickness() + 0.5;
   // Well inside of 0 and 1, whatever interpolation rounds.
-  const double depth = 0.25 + 0.5 * (position.y - leaf.nearest) /
-                                  std::max(leaf.farthest - leaf.nearest,
+  const double depth = 0.25 + 0.5 * (position.y - nearest_) /
+                                  std::max(farthest_ - nearest_,
                                            std::numeric_limits<double>::min());
   return {picture_coordinate(
               snap(column, rays_.rays_below(position.x), rays_.ray_count()),

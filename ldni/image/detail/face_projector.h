@@ -1,5 +1,5 @@
 #pragma once
-// The faces of leaves as triangles of a picture that looks along the rays: a
+// The faces of a leaf as triangles of a picture that looks along the rays: a
 // column for each ray, a row for each layer, their crossing in the middle of a
 // pixel.
 //
@@ -30,30 +30,22 @@ class FaceProjector {
   FaceProjector(const RayGrid& rays, const LayerGrid& layers)
       : rays_(rays), layers_(layers) {}
 
-  // A face of a leaf: which of the placed leaves, and which of its triangles.
-  struct Face {
-    std::uint32_t leaf;
-    std::uint32_t triangle;
-  };
-
-  // Forgets all leaves.
-  void clear();
-  // Places one more leaf, to be seen in `box`; `mesh` must stay as it is until
-  // `clear`.
-  void place(const csg::Mesh& mesh, const Affine& world_from_leaf,
-             const GridBox& box);
+  // Replaces the leaf; `mesh` must stay as it is until the next one is placed.
+  void place(const csg::Mesh& mesh, const Affine& world_from_leaf);
 
   // Replaces the triangles by those that can cover the middle of a pixel of
-  // `picture`, at most kPictureSize either way, in the box of their leaf. Far
-  // from the picture they are cut off.
+  // `picture`, at most kPictureSize either way. Far from the picture they are
+  // cut off.
   void project(const GridBox& picture);
 
   // The corners of the triangles, three for each.
   std::span<const RasterCorner> corners() const { return corners_; }
-  // The face that a triangle is, or is a part of.
-  const Face& face_of(std::uint32_t triangle) const { return faces_[triangle]; }
+  // The face of the mesh that a triangle is, or is a part of.
+  std::uint32_t face_of(std::uint32_t triangle) const {
+    return faces_[triangle];
+  }
   // The corners of a face in the world, counter-clockwise from outside.
-  std::array<Vec3, 3> corners_of(const Face& face) const;
+  std::array<Vec3, 3> corners_of(std::uint32_t face) const;
 
  private:
   // A vertex in the world, and the rays and sections before it.
@@ -63,36 +55,30 @@ class FaceProjector {
     std::uint32_t layers_below;
   };
 
-  struct Leaf {
-    const csg::Mesh* mesh;
-    GridBox box;
-    bool is_mirrored;
-    std::size_t first_vertex;  // into vertices_
-    double nearest;            // y of the vertices
-    double farthest;
-  };
-
-  bool can_meet(const Face& face) const;
+  bool can_meet(std::uint32_t face) const;
   void set_reach();
   bool is_in_reach(const Vec3& position) const;
-  void add_face(const Face& face);
-  void cut_face(const Face& face);
-  void add_triangle(const Face& face, const std::array<Vec3, 3>& corners);
-  RasterCorner raster_corner(const Leaf& leaf, const Vec3& position) const;
+  void add_face(std::uint32_t face);
+  void cut_face(std::uint32_t face);
+  void add_triangle(std::uint32_t face, const std::array<Vec3, 3>& corners);
+  RasterCorner raster_corner(const Vec3& position) const;
 
   const RayGrid& rays_;
   const LayerGrid& layers_;
 
-  std::vector<Leaf> leaves_;
-  std::vector<Vertex> vertices_;  // of all leaves
+  // The leaf.
+  const csg::Mesh* mesh_ = nullptr;
+  bool is_mirrored_ = false;
+  std::vector<Vertex> vertices_;
+  double nearest_ = 0;  // y of the vertices
+  double farthest_ = 0;
 
   GridBox picture_;
-  GridBox visible_;    // of the picture, the box of the leaf at hand
   Vec3 reach_low_{0};  // x and z that can be drawn; y means nothing
   Vec3 reach_high_{0};
   std::vector<RasterCorner> corners_;
-  std::vector<Face> faces_;    // of the triangles
-  std::vector<Vec3> polygon_;  // of the face that is being cut
+  std::vector<std::uint32_t> faces_;  // of the triangles
+  std::vector<Vec3> polygon_;         // of the face that is being cut
 };
 
 }  // namespace lamina::ldni

@@ -1,4 +1,4 @@
-// `--sampler gl` and `--sampler gl-peeling`.
+// `--sampler gl`, and its other name, `--sampler gl-peeling`.
 
 #include <string>
 #include <vector>

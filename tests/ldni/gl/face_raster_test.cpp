@@ -66,18 +66,9 @@ Corner random_corner(std::mt19937& random, int size) {
   return corner;
 }
 
-class FaceRasters : public ::testing::TestWithParam<GlMethod> {};
-
-INSTANTIATE_TEST_SUITE_P(Methods, FaceRasters,
-                         ::testing::Values(GlMethod::kList, GlMethod::kPeeling),
-                         [](const auto& method) {
-                           return method.param == GlMethod::kList ? "List"
-                                                                  : "Peeling";
-                         });
-
-TEST_P(FaceRasters, AreExactOnTheirGrid) {
+TEST(FaceRaster, IsExactOnItsGrid) {
   std::mt19937 random(11);
-  const auto raster = shared_raster(GetParam());
+  const auto raster = shared_raster();
   for (int round = 0; round < 600; ++round) {
     const int size = std::array{20, 60, 100, 300}[random() % 4];
     const Triangle triangle = {random_corner(random, size),
@@ -102,15 +93,13 @@ TEST_P(FaceRasters, AreExactOnTheirGrid) {
   }
 }
 
-std::vector<std::uint64_t> sorted_fragments(const GlPlatform& platform,
-                                            GlMethod method) {
+std::vector<std::uint64_t> sorted_fragments(const GlPlatform& platform) {
   const std::vector<RasterCorner> corners = {
       {-900, -50, 0.3F},     {1000, 20.5F, 0.3F},  {10.25F, 900, 0.7F},
       {5, 5, 0.5F},          {80, 90, 0.4F},       {70.75F, 2, 0.6F},
       {-1000, 50.25F, 0.5F}, {1000, 50.75F, 0.5F}, {1000, 60, 0.5F}};
   std::vector<Fragment> fragments;
-  EXPECT_TRUE(
-      make_face_raster(platform, method)->draw(corners, 100, 80, fragments));
+  EXPECT_TRUE(make_face_raster(platform)->draw(corners, 100, 80, fragments));
   std::vector<std::uint64_t> result;
   for (const Fragment& fragment : fragments) {
     result.push_back(std::uint64_t{fragment.pixel} << 32 |
@@ -122,35 +111,27 @@ std::vector<std::uint64_t> sorted_fragments(const GlPlatform& platform,
 
 TEST(GlPlatform, OsMesaAndEglDrawTheSame) {
   const auto osmesa = open_osmesa();
-  const auto egl = open_egl(EglDevice::kAny, least_version(GlMethod::kList));
-  const auto expected = sorted_fragments(*osmesa, GlMethod::kList);
+  const auto egl = open_egl(EglDevice::kAny);
+  const auto expected = sorted_fragments(*osmesa);
   EXPECT_GT(expected.size(), 5000U);
-  EXPECT_EQ(sorted_fragments(*osmesa, GlMethod::kPeeling), expected);
-  EXPECT_EQ(sorted_fragments(*egl, GlMethod::kList), expected);
-  EXPECT_EQ(sorted_fragments(*egl, GlMethod::kPeeling), expected);
+  EXPECT_EQ(sorted_fragments(*egl), expected);
 }
 
 TEST(GlPlatform, DrawsInSeveralThreadsAtOnce) {
-  const auto platform = open_gl(least_version(GlMethod::kList));
-  const auto expected = sorted_fragments(*platform, GlMethod::kList);
+  const auto platform = open_gl();
+  const auto expected = sorted_fragments(*platform);
   std::vector<std::vector<std::uint64_t>> found(4);
   std::vector<std::thread> threads;
   for (auto& fragments : found) {
-    threads.emplace_back(
-        [&] { fragments = sorted_fragments(*platform, GlMethod::kList); });
+    threads.emplace_back([&] { fragments = sorted_fragments(*platform); });
   }
   for (std::thread& thread : threads) thread.join();
   for (const auto& fragments : found) EXPECT_EQ(fragments, expected);
 }
 
 TEST(GlPlatform, SaysWhatDraws) {
-  const auto context = open_osmesa()->make_context({3, 3});
+  const auto context = open_osmesa()->make_context();
   EXPECT_NE(renderer_name(*context).find("llvmpipe"), std::string::npos);
-}
-
-TEST(GlPlatform, HasNoVersionThatThereIsNot) {
-  EXPECT_THROW(open_osmesa()->make_context({9, 9}), FileError);
-  EXPECT_THROW(open_egl(EglDevice::kAny, {9, 9}), FileError);
 }
 
 }  // namespace

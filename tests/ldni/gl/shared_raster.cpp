@@ -3,11 +3,9 @@
 namespace lamina::ldni {
 namespace {
 
-FaceRaster& raster_of_all_tests(GlMethod method) {
-  static const auto platform = open_gl(least_version(GlMethod::kList));
-  static const auto list = make_face_raster(*platform, GlMethod::kList);
-  static const auto peeling = make_face_raster(*platform, GlMethod::kPeeling);
-  return method == GlMethod::kList ? *list : *peeling;
+FaceRaster& raster_of_all_tests() {
+  static const auto raster = make_face_raster(*open_gl());
+  return *raster;
 }
 
 class SharedRaster : public FaceRaster {
@@ -25,8 +23,8 @@ class SharedRaster : public FaceRaster {
 
 }  // namespace
 
-std::unique_ptr<FaceRaster> shared_raster(GlMethod method) {
-  return std::make_unique<SharedRaster>(raster_of_all_tests(method));
+std::unique_ptr<FaceRaster> shared_raster() {
+  return std::make_unique<SharedRaster>(raster_of_all_tests());
 }
 
 }  // namespace lamina::ldni

@@ -9,6 +9,6 @@
 namespace lamina::ldni {
 
 // Throws where OpenGL is missing: a test that needs it must fail.
-std::unique_ptr<FaceRaster> shared_raster(GlMethod method);
+std::unique_ptr<FaceRaster> shared_raster();
 
 }  // namespace lamina::ldni

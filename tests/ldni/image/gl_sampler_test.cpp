@@ -27,13 +27,11 @@ constexpr double kStep = 1.0 / 256;
 // All leaves of a scene by one sampler.
 LeafImages sample_all(Sampler& sampler, const Scene& scene, const RayGrid& rays,
                       const LayerGrid& layers) {
-  std::vector<LeafBox> leaves;
+  LeafImages images;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const GridBox box = local_box(scene.instances[i].box, rays, layers);
-    if (!box.is_empty()) leaves.push_back({i, box});
+    if (!box.is_empty()) sampler.sample({i, box}, images);
   }
-  LeafImages images;
-  sampler.sample(leaves, images);
   return images;
 }
 
@@ -124,14 +122,13 @@ struct Agreement {
 };
 
 // Checks every pixel of every image against the exact sampler's.
-Agreement compare_with_exact(const Scene& scene, double pitch, double thickness,
-                             GlMethod method) {
+Agreement compare_with_exact(const Scene& scene, double pitch,
+                             double thickness) {
   const RayGrid rays(scene.box.low.x, scene.box.high.x, pitch);
   const LayerGrid layers =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, thickness);
   const auto exact = make_scanline_sampler(scene, rays, layers);
-  const auto drawn =
-      make_gl_sampler(scene, rays, layers, shared_raster(method));
+  const auto drawn = make_gl_sampler(scene, rays, layers, shared_raster());
   const LeafImages expected = sample_all(*exact, scene, rays, layers);
   const LeafImages found = sample_all(*drawn, scene, rays, layers);
   EXPECT_EQ(drawn->repaired_pixels(), 0U);
@@ -173,23 +170,13 @@ Agreement compare_with_exact(const Scene& scene, double pitch, double thickness,
   return agreement;
 }
 
-class GlSamplers : public ::testing::TestWithParam<GlMethod> {};
-
-INSTANTIATE_TEST_SUITE_P(Methods, GlSamplers,
-                         ::testing::Values(GlMethod::kList, GlMethod::kPeeling),
-                         [](const auto& method) {
-                           return method.param == GlMethod::kList ? "List"
-                                                                  : "Peeling";
-                         });
-
-TEST_P(GlSamplers, AgreeWithTheExactOneInHardScenes) {
+TEST(GlSampler, AgreesWithTheExactOneInHardScenes) {
   Agreement sum;
   for (int style = 0; style < support::kSceneStyleCount; ++style) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const Scene scene = support::random_scene(
           seed, static_cast<support::SceneStyle>(style), 20);
-      const Agreement agreement =
-          compare_with_exact(scene, 0.13, 0.11, GetParam());
+      const Agreement agreement = compare_with_exact(scene, 0.13, 0.11);
       sum.pixels += agreement.pixels;
       sum.other_counts += agreement.other_counts;
     }
@@ -198,12 +185,11 @@ TEST_P(GlSamplers, AgreeWithTheExactOneInHardScenes) {
   EXPECT_LT(sum.other_counts, sum.pixels / 1000);
 }
 
-TEST_P(GlSamplers, AgreeWithTheExactOneInDesigns) {
+TEST(GlSampler, AgreesWithTheExactOneInDesigns) {
   for (const char* const name : {"ring55.scad", "submarine74.scad"}) {
     const auto design = support::Design::from_file(
         std::filesystem::path(LAMINA_BENCH_SCENES) / name);
-    const Agreement agreement =
-        compare_with_exact(design.scene(), 0.1, 0.1, GetParam());
+    const Agreement agreement = compare_with_exact(design.scene(), 0.1, 0.1);
     EXPECT_GT(agreement.pixels, 10000U) << name;
     EXPECT_LT(agreement.other_counts, agreement.pixels / 1000) << name;
   }
@@ -218,17 +204,16 @@ Scene scene_of_mesh(csg::Mesh mesh, const Affine& placement) {
   return scene;
 }
 
-TEST_P(GlSamplers, AgreeWithTheExactOneWherePicturesAreLargeAndFull) {
+TEST(GlSampler, AgreesWithTheExactOneWherePicturesAreLargeAndFull) {
   // Half a million fragments, in pictures of at most 2048 pixels either way.
   const Scene scene = scene_of_mesh(support::torus_mesh(48, 2, 0.6),
                                     support::turn_about({1, 0.2, 0.1}, 1.2));
-  const Agreement agreement =
-      compare_with_exact(scene, 0.0019, 0.02, GetParam());
+  const Agreement agreement = compare_with_exact(scene, 0.0019, 0.02);
   EXPECT_GT(agreement.pixels, std::size_t{kPictureSize} * 200);
   EXPECT_LT(agreement.other_counts, agreement.pixels / 1000);
 }
 
-TEST_P(GlSamplers, AgreeWithTheExactOneInLeavesThatReachFarBeyondTheScene) {
+TEST(GlSampler, AgreesWithTheExactOneInLeavesThatReachFarBeyondTheScene) {
   // As what is subtracted may; here in a window of 2 mm at the leaf's corner.
   for (const double size : {30.0, 3e3, 1e6}) {
     const Affine placement =
@@ -237,14 +222,13 @@ TEST_P(GlSamplers, AgreeWithTheExactOneInLeavesThatReachFarBeyondTheScene) {
     Scene scene = scene_of_mesh(
         support::box_mesh(Vec3(-size, -size, -size), Vec3(0)), placement);
     scene.box = {Vec3(-1), Vec3(1)};
-    const Agreement agreement =
-        compare_with_exact(scene, 0.02, 0.02, GetParam());
+    const Agreement agreement = compare_with_exact(scene, 0.02, 0.02);
     EXPECT_GT(agreement.pixels, 1000U);
     EXPECT_LT(agreement.other_counts, 10U) << size;
   }
 }
 
-TEST_P(GlSamplers, FindEachOfSeveralFacesInOnePlace) {
+TEST(GlSampler, FindsEachOfSeveralFacesInOnePlace) {
   // The same box three times over, one of them inside out.
   csg::Mesh mesh = support::box_mesh(Vec3(0), Vec3(2));
   const std::size_t count = mesh.triangles.size();
@@ -258,8 +242,7 @@ TEST_P(GlSamplers, FindEachOfSeveralFacesInOnePlace) {
   const Scene scene = scene_of_mesh(std::move(mesh), Affine(1.0));
   const RayGrid rays(0, 2, 0.3);
   const LayerGrid layers = LayerGrid::uniform(0, 2, 0.3);
-  const auto sampler =
-      make_gl_sampler(scene, rays, layers, shared_raster(GetParam()));
+  const auto sampler = make_gl_sampler(scene, rays, layers, shared_raster());
   const LeafImages images = sample_all(*sampler, scene, rays, layers);
   const GridBox& box = images.images[0].box;
   ASSERT_GT(box.pixel_count(), 20U);
@@ -273,56 +256,6 @@ TEST_P(GlSamplers, FindEachOfSeveralFacesInOnePlace) {
       }
     }
   }
-}
-
-TEST(GlSampler, BothMethodsGiveTheSameSamples) {
-  const Scene scene = support::random_scene(7, support::SceneStyle::kMixed, 30);
-  const RayGrid rays(scene.box.low.x, scene.box.high.x, 0.07);
-  const LayerGrid layers =
-      LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.09);
-  LeafImages images[2];
-  for (const GlMethod method : {GlMethod::kList, GlMethod::kPeeling}) {
-    const auto sampler =
-        make_gl_sampler(scene, rays, layers, shared_raster(method));
-    images[method == GlMethod::kPeeling] =
-        sample_all(*sampler, scene, rays, layers);
-  }
-  ASSERT_EQ(images[0].ends, images[1].ends);
-  for (std::size_t i = 0; i < images[0].samples.size(); ++i) {
-    EXPECT_EQ(images[0].samples[i].depth, images[1].samples[i].depth);
-    EXPECT_EQ(images[0].samples[i].normal, images[1].samples[i].normal);
-  }
-}
-
-TEST_P(GlSamplers, DrawLeavesTogetherAsEachByItself) {
-  // Each in a box that holds only a part of it.
-  const Scene scene = support::random_scene(8, support::SceneStyle::kMixed, 30);
-  const RayGrid rays(scene.box.low.x, scene.box.high.x, 0.07);
-  const LayerGrid layers =
-      LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.09);
-  std::vector<LeafBox> leaves;
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-    GridBox box = local_box(scene.instances[i].box, rays, layers);
-    box.ray_start += box.ray_count / 4;
-    box.ray_count /= 2;
-    box.layer_start += box.layer_count / 3;
-    box.layer_count /= 2;
-    if (!box.is_empty()) leaves.push_back({i, box});
-  }
-  ASSERT_GT(leaves.size(), 20U);
-  const auto sampler =
-      make_gl_sampler(scene, rays, layers, shared_raster(GetParam()));
-  LeafImages together;
-  sampler->sample(leaves, together);
-  LeafImages alone;
-  for (const LeafBox& leaf : leaves) sampler->sample({&leaf, 1}, alone);
-  ASSERT_GT(together.samples.size(), 1000U);
-  ASSERT_EQ(together.ends, alone.ends);
-  for (std::size_t i = 0; i < alone.samples.size(); ++i) {
-    EXPECT_EQ(together.samples[i].depth, alone.samples[i].depth);
-    EXPECT_EQ(together.samples[i].instance, alone.samples[i].instance);
-  }
-  EXPECT_EQ(sampler->repaired_pixels(), 0U);
 }
 
 // Loses the entries of some pixels, and has no room for large pictures.
@@ -347,7 +280,7 @@ class FaultyRaster : public FaceRaster {
   }
 
  private:
-  std::unique_ptr<FaceRaster> raster_ = shared_raster(GlMethod::kList);
+  std::unique_ptr<FaceRaster> raster_ = shared_raster();
   std::uint32_t faulty_pixels_;  // every so many one; 0: none
   int greatest_size_;
 };
@@ -362,7 +295,7 @@ TEST(GlSampler, SamplesExactlyWhatWasNotDrawnAsOftenFromBothSides) {
       scene, rays, layers, std::make_unique<FaultyRaster>(40, kPictureSize));
   const auto exact_sampler = make_scanline_sampler(scene, rays, layers);
   const auto sound_sampler =
-      make_gl_sampler(scene, rays, layers, shared_raster(GlMethod::kList));
+      make_gl_sampler(scene, rays, layers, shared_raster());
   const LeafImages images = sample_all(*sampler, scene, rays, layers);
   const LeafImages sound = sample_all(*sound_sampler, scene, rays, layers);
   EXPECT_GT(sampler->repaired_pixels(), 100U);
@@ -379,8 +312,7 @@ TEST(GlSampler, DrawsInPartsWhatIsTooMuchForOnePicture) {
   const RayGrid rays(scene.box.low.x, scene.box.high.x, 0.1);
   const LayerGrid layers =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.1);
-  const auto whole =
-      make_gl_sampler(scene, rays, layers, shared_raster(GlMethod::kList));
+  const auto whole = make_gl_sampler(scene, rays, layers, shared_raster());
   const auto parts = make_gl_sampler(scene, rays, layers,
                                      std::make_unique<FaultyRaster>(0, 7));
   const LeafImages expected = sample_all(*whole, scene, rays, layers);

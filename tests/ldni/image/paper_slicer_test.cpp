@@ -58,7 +58,7 @@ plane::Contours slice_at(const Scene& scene, double z, double pitch) {
 // A ring of square section: a prism with a hole, both fine enough that the
 // facets do not matter.
 Scene ring_scene(double outer, double inner) {
-  Scene scene = support::scene_of(BooleanOp::kDifference);
+  Scene scene = support::scene_of(plane::BooleanOp::kDifference);
   scene.leaves.push_back(
       support::mesh_leaf(support::prism_mesh(4096, outer, -1, 1)));
   scene.leaves.push_back(
@@ -71,13 +71,16 @@ Scene ring_scene(double outer, double inner) {
 
 // Twelve tori and spheres in random places, some subtracted, some intersected.
 Scene random_scene(std::mt19937& random) {
-  Scene scene = support::scene_of(BooleanOp::kUnion);
+  Scene scene = support::scene_of(plane::BooleanOp::kUnion);
   scene.leaves.push_back(support::mesh_leaf(support::torus_mesh(20, 2, 0.6)));
   scene.leaves.push_back(support::mesh_leaf(support::sphere_mesh(16, 1.5)));
   std::uniform_real_distribution<double> place(0, 5);
   for (int i = 0; i < 3; ++i) {
-    const std::uint32_t parent = support::add_operator(
-        scene, i == 0 ? BooleanOp::kIntersection : BooleanOp::kDifference, 0);
+    const std::uint32_t parent =
+        support::add_operator(scene,
+                              i == 0 ? plane::BooleanOp::kIntersection
+                                     : plane::BooleanOp::kDifference,
+                              0);
     for (int k = 0; k < 4; ++k) {
       support::place_leaf(
           scene, static_cast<std::uint32_t>(random() % 2),
@@ -111,7 +114,7 @@ TEST(PaperSlicer, AreaOfARingConvergesWithThePitch) {
 }
 
 TEST(PaperSlicer, LosesNeverMoreThanAPitchOfABoxInX) {
-  Scene scene = support::scene_of(BooleanOp::kUnion);
+  Scene scene = support::scene_of(plane::BooleanOp::kUnion);
   scene.leaves.push_back(
       support::mesh_leaf(support::box_mesh(Vec3(-2, -1, 0), Vec3(3, 4, 1))));
   support::place_leaf(scene, 0, Affine(1.0));
@@ -127,7 +130,7 @@ TEST(PaperSlicer, LosesNeverMoreThanAPitchOfABoxInX) {
 
 TEST(PaperSlicer, LosesASlitNarrowerThanThePitchThatRunsAlongTheRays) {
   // The limit that the kinetic ray removes.
-  Scene scene = support::scene_of(BooleanOp::kDifference);
+  Scene scene = support::scene_of(plane::BooleanOp::kDifference);
   scene.leaves.push_back(
       support::mesh_leaf(support::box_mesh(Vec3(0), Vec3(4, 4, 1))));
   scene.leaves.push_back(
@@ -140,9 +143,9 @@ TEST(PaperSlicer, LosesASlitNarrowerThanThePitchThatRunsAlongTheRays) {
 }
 
 TEST(PaperSlicer, TouchingAndCoplanarSolidsLeaveNoInnerWallAndNoSkin) {
-  Scene scene = support::scene_of(BooleanOp::kDifference);
+  Scene scene = support::scene_of(plane::BooleanOp::kDifference);
   const std::uint32_t joined =
-      support::add_operator(scene, BooleanOp::kUnion, 0);
+      support::add_operator(scene, plane::BooleanOp::kUnion, 0);
   scene.leaves.push_back(
       support::mesh_leaf(support::box_mesh(Vec3(0), Vec3(1))));
   for (const Vec3& place :
@@ -239,7 +242,7 @@ TEST(PaperSlicer, CountsTheImagesThatBoxesNeed) {
 // A ray crosses an upright torus four times in the middle and twice in the
 // topmost layers; its dense image has four peels everywhere.
 TEST(PaperSlicer, CountsTheMostPeelsOfAllBlocksAndThreads) {
-  Scene scene = support::scene_of(BooleanOp::kUnion);
+  Scene scene = support::scene_of(plane::BooleanOp::kUnion);
   scene.leaves.push_back(support::mesh_leaf(support::torus_mesh(20, 2, 0.6)));
   support::place_leaf(scene, 0,
                       support::turn_about({0, 1, 0}, std::numbers::pi / 2));
@@ -258,7 +261,7 @@ TEST(PaperSlicer, CountsTheMostPeelsOfAllBlocksAndThreads) {
 }
 
 TEST(PaperSlicer, AnEmptySceneHasEmptyLayers) {
-  const Scene scene = support::scene_of(BooleanOp::kUnion);
+  const Scene scene = support::scene_of(plane::BooleanOp::kUnion);
   EXPECT_TRUE(slice_at(scene, 0, 0.1).is_empty());
 }
 
@@ -295,11 +298,10 @@ TEST(PaperSlicer, LayersDrawnByOpenGlAreThoseOfTheExactSampler) {
                                    design.scene(), counts);
     EXPECT_EQ(counts.repaired_pixels, 0U);
     std::vector<std::vector<plane::Contours>> drawn;
-    for (const SamplerKind kind : {SamplerKind::kGl, SamplerKind::kGlPeeling}) {
-      for (const BoxMode boxes : {BoxMode::kLocal, BoxMode::kGlobal}) {
-        drawn.push_back(slice_by(kind, boxes, design.scene(), counts));
-        EXPECT_EQ(counts.repaired_pixels, 0U);
-      }
+    for (const BoxMode boxes : {BoxMode::kLocal, BoxMode::kGlobal}) {
+      drawn.push_back(
+          slice_by(SamplerKind::kGl, boxes, design.scene(), counts));
+      EXPECT_EQ(counts.repaired_pixels, 0U);
     }
     // A wall moves by 1/256 of pitch and thickness, and by its slope; and a ray
     // that runs along a wall can see it or not.
@@ -334,9 +336,9 @@ TEST(PaperSlicer, CoplanarFacesLeaveNoWallAndNoSkinWhenDrawn) {
     const double length = 100 * part(random);
     const double y1 = length * part(random);
     const double y2 = length * part(random);
-    Scene scene = support::scene_of(BooleanOp::kDifference);
+    Scene scene = support::scene_of(plane::BooleanOp::kDifference);
     const std::uint32_t joined =
-        support::add_operator(scene, BooleanOp::kUnion, 0);
+        support::add_operator(scene, plane::BooleanOp::kUnion, 0);
     // Each leaf has a part above the layers too, so that its depths begin
     // somewhere else.
     const auto place = [&](double low, double high, std::uint32_t parent) {

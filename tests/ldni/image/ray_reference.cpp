@@ -49,13 +49,12 @@ std::vector<Ranges> evaluate_layers(const csg::Scene& scene,
   const double share = RayGrid(0, 1, 1).ray_x(0);
   const RayGrid rays(x - share, x + 0.5, 1);
   x = rays.ray_x(0);
-  std::vector<LeafBox> leaves;
+  LeafImages images;
+  const auto sampler = make_scanline_sampler(scene, rays, layers);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const GridBox box = local_box(scene.instances[i].box, rays, layers);
-    if (!box.is_empty()) leaves.push_back({i, box});
+    if (!box.is_empty()) sampler->sample({i, box}, images);
   }
-  LeafImages images;
-  make_scanline_sampler(scene, rays, layers)->sample(leaves, images);
   RayBoolean boolean(scene);
   std::vector<Ranges> result(layers.layer_count());
   for (std::uint32_t layer = 0; layer < layers.layer_count(); ++layer) {

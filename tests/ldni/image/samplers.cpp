@@ -11,8 +11,6 @@ std::ostream& operator<<(std::ostream& out, SamplerKind kind) {
       return out << "scanline";
     case SamplerKind::kGl:
       return out << "gl";
-    case SamplerKind::kGlPeeling:
-      return out << "peeling";
   }
   return out;
 }
@@ -23,10 +21,7 @@ std::unique_ptr<Sampler> make_sampler(SamplerKind kind, const csg::Scene& scene,
   if (kind == SamplerKind::kScanline) {
     return make_scanline_sampler(scene, rays, layers);
   }
-  return make_gl_sampler(
-      scene, rays, layers,
-      shared_raster(kind == SamplerKind::kGl ? GlMethod::kList
-                                             : GlMethod::kPeeling));
+  return make_gl_sampler(scene, rays, layers, shared_raster());
 }
 
 }  // namespace lamina::ldni
