@@ -86,6 +86,21 @@ void write_stage(Compilation& c, OutputFile* rule) {
   if (rule != nullptr) rule->commit();
 }
 
+// Writes one layer between two stages, and the rule. Returns false where
+// messages end the run.
+bool write_dump(Compilation& c, OutputFile* rule) {
+  const csg::Lowered lowered = lower_tree(c);
+  if (ends_strictly(c)) return false;
+  const OutputRequest& output = c.request.output;
+  const std::string dump = slicer::dump_layer(
+      *lowered.scene(), plan(lowered, settings_of(c.request)),
+      {*output.dump, *output.dump_height, slicer::is_named(output.path, ".svg"),
+       &line_text});
+  write_file(output.path, dump, c.temporary_files);
+  if (rule != nullptr) rule->commit();
+  return true;
+}
+
 }  // namespace
 
 bool compile(Compilation& c) {
@@ -127,6 +142,9 @@ bool compile(Compilation& c) {
     return !ends_hard(c);
   }
   if (c.has_failed) return false;
+
+  // A look inside: one layer as a stage before layers has it.
+  if (request.output.dump) return write_dump(c, rule.get());
 
   // The output is opened first: nothing is computed for a file that cannot be.
   LayerOutput output =

@@ -8,6 +8,7 @@
 
 #include "csg/eval/evaluator.h"
 #include "parser/customizer/parameter_set.h"
+#include "slicer/dump/layer_dump.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/slice/settings.h"
 
@@ -57,6 +58,10 @@ struct GeometryRequest {
 // What is written.
 struct OutputRequest {
   std::string path;  // "-": standard output
+  // A stage of one layer is written instead of layers, and a height in that
+  // layer [mm]: as a drawing where the path ends with .svg, else as text.
+  std::optional<slicer::DumpStage> dump;
+  std::optional<double> dump_height;
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
   std::optional<slicer::CliEncoding> cli_encoding;
   std::string printer;     // name or profile; empty: of images the format's
@@ -67,6 +72,8 @@ struct OutputRequest {
   // A warning or an error ends the run with no output, when its stage is done.
   // Not given: where the files that may be read are confined.
   std::optional<bool> is_strict;
+
+  bool is_of_layers() const { return !dump && slicer::is_of_layers(format); }
 };
 
 // From a design to layers, or to one of the stages on the way.

@@ -67,6 +67,10 @@ FoundLines find_lines(const csg::Lowered& lowered,
   return found;
 }
 
+std::string line_text(const csg::Instance& instance) {
+  return text_of(line_of(instance));
+}
+
 std::vector<std::string> texts_of(std::span<const SourceLines> all) {
   std::vector<std::string> texts;
   for (const SourceLines& lines : all) {

@@ -35,6 +35,9 @@ struct FoundLines {
 FoundLines find_lines(const csg::Lowered& lowered,
                       const slicer::SliceReport& report);
 
+// The line of a leaf: "lib.scad:8:5 from ring.scad:40:3".
+std::string line_text(const csg::Instance& instance);
+
 // A text for each: "lib.scad:8:5 from ring.scad:40:3, ring.scad:12:3".
 std::vector<std::string> texts_of(std::span<const SourceLines> all);
 

@@ -31,7 +31,7 @@ constexpr std::string_view kMoreThanZero = "must be more than 0 mm, not {0}";
 constexpr std::string_view kAtLeastAMillionth = "must be at least 0.000001 mm";
 constexpr std::string_view kFromTo = "must be from {1} to {2}, not {0}";
 
-constexpr std::array<NumberLimits, 14> kNumbers = {{
+constexpr std::array<NumberLimits, 15> kNumbers = {{
     {"--layer", kAboveZero, kUnlimited, kMoreThanZero,
      [](const Request& r) { return r.job.layer_thickness; }},
     {"--adaptive", kAboveZero, kUnlimited, kMoreThanZero,
@@ -62,6 +62,8 @@ constexpr std::array<NumberLimits, 14> kNumbers = {{
      [](const Request& r) { return static_cast<double>(r.design.max_depth); }},
     {"--max-leaves", 1, 1e9, kFromTo,
      [](const Request& r) { return static_cast<double>(r.design.max_leaves); }},
+    {"--at", -kUnlimited, kUnlimited, "must be a height in mm, not {0}",
+     [](const Request& r) { return r.output.dump_height.value_or(0); }},
 }};
 
 void require(const NumberLimits& limits, double value) {
@@ -113,7 +115,12 @@ void refuse_misfits(const Request& request) {
   const OutputRequest& output = request.output;
   const slicer::Settings& job = request.job;
   const slicer::OutputFormat format = output.format;
-  const bool has_layers = slicer::is_of_layers(format);
+  const bool has_layers = output.is_of_layers();
+  refuse_if(output.dump && !output.dump_height,
+            "--dump needs --at, a height in the layer");
+  refuse_if(!output.dump && output.dump_height, "--at needs --dump");
+  refuse_if(output.dump && job.contour == slicer::ContourMode::kPaper,
+            "--dump needs --contour faithful");
   refuse_if(!has_layers && job.min_feature > 0, "--min-feature needs layers");
   refuse_if(!has_layers && !output.printer.empty(), "--printer needs layers");
   refuse_if(!has_layers && !output.material.empty(), "--material needs layers");

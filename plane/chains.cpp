@@ -4,6 +4,15 @@
 
 namespace lamina::plane {
 
+double y_at(std::span<const Vec2> points, double x) {
+  const auto right = std::ranges::upper_bound(
+      points.subspan(1, points.size() - 2), x, {}, &Vec2::x);
+  const Vec2& a = *(right - 1);
+  const Vec2& b = *right;
+  if (x == b.x) return b.y;
+  return a.y + (x - a.x) * (b.y - a.y) / (b.x - a.x);
+}
+
 bool ChainBlock::repeats(std::uint32_t i) const {
   if (i == 0) return false;
   const auto is_same = [this](const Chain& a, const Chain& b) {

@@ -33,6 +33,10 @@ struct Chain {
   }
 };
 
+// y of the points of a chain at an x of their extent; points give their own y
+// exactly.
+double y_at(std::span<const Vec2> points, double x);
+
 // A closed loop of a leaf in a layer: so many chains, one after another as it
 // leads through them; where one ends and the next begins a vertical edge may
 // lie between.

@@ -1,5 +1,6 @@
 // lamina DESIGN: from a design to layers, or to the text of a stage before.
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <string>
@@ -20,6 +21,7 @@
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
 #include "compiler/request.h"
+#include "slicer/dump/layer_dump.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
@@ -131,6 +133,13 @@ For comparison, the method of Zeng et al. 2011:
   --sampler KIND      of paper: scanline, or gl (drawn by OpenGL, by depth
                       peeling, as published) [scanline]
 
+Looking inside (see docs/wrong-contour.md):
+  --dump STAGE        instead of layers, write one layer as text, or to a .svg
+                      file as a drawing: its scene (leaves and their Boolean),
+                      chains (sections of leaves), events (of the sweep), or
+                      contours
+  --at Z              the layer: the one that holds this height
+
 Checks:
   --min-feature MM    report walls and gaps thinner than this, and what
                       made them
@@ -184,6 +193,15 @@ class SliceCommand : public Command {
     add_name(app, "-o", "file", request_.output.path);
     add_name(app, "-d", "file", request_.output.dependencies);
     app.add_flag("--watch", watches_);
+    const auto& stages = slicer::kDumpStages;
+    add_choice(app, "--dump", {stages.begin(), stages.end()},
+               [this, &stages](const std::string& stage) {
+                 request_.output.dump = static_cast<slicer::DumpStage>(
+                     std::ranges::find(stages, stage) - stages.begin());
+               });
+    add_text(app, "--at", "height", [this](const std::string& text) {
+      request_.output.dump_height = require_within("--at", text);
+    });
     add_output_options(app, request_, output_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
@@ -193,6 +211,7 @@ class SliceCommand : public Command {
     refuse_if(designs_.empty(), "no design was given");
     refuse_misspelt_command(designs_.front());
     for (const std::string& design : designs_) refuse_layers(design);
+    if (request_.output.dump) return check_dump();
     refuse_if(request_.output.path == "-" && output_.export_format.empty(),
               "-o - needs --export-format");
     refuse_if(watches_ && (designs_.size() > 1 || request_.output.path == "-"),
@@ -248,6 +267,22 @@ class SliceCommand : public Command {
     return fill_pattern(request_.output.path, [&](const std::string& word) {
       return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
     });
+  }
+
+  // A dump goes to standard output where no file is named.
+  void check_dump() {
+    std::string& path = request_.output.path;
+    if (path.empty()) path = "-";
+    refuse_if(designs_.size() > 1 || watches_,
+              "--dump needs one design, and no --watch");
+    refuse_if(!output_.report.empty(), "--report needs layers");
+    refuse_if(!output_.export_format.empty() ||
+                  !(path == "-" || slicer::is_named(path, ".txt") ||
+                    slicer::is_named(path, ".svg")),
+              "--dump writes text, to standard output or .txt, or a drawing, "
+              "to .svg");
+    request_.design.path = designs_.front();
+    compiler::validate(request_);
   }
 
   void check_several() {

@@ -325,7 +325,7 @@ int compile_and_report(Session& session, const std::string& report,
         new OutputFile(OutputFile::open(report, compilation.temporary_files)));
   }
   if (!compiler::compile(compilation)) return kFault;
-  if (!slicer::is_of_layers(request.output.format)) return kDone;
+  if (!request.output.is_of_layers()) return kDone;
   if (file != nullptr) {
     file->write(report_text(compilation, earlier_seconds));
     file->commit();

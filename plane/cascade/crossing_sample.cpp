@@ -7,18 +7,8 @@
 #include <random>
 #include <span>
 
-#include "plane/order/chain_cursor.h"
-
 namespace lamina::plane {
 namespace {
-
-// y of a chain at an x of its extent.
-double y_at(std::span<const Vec2> chain, double x) {
-  const auto right =
-      std::ranges::upper_bound(chain.subspan(1, chain.size() - 2), x, {},
-                               [](const Vec2& point) { return point.x; });
-  return ChainCursor(&*right - 1, &chain.back()).y_at(x);
-}
 
 bool change_order(std::span<const Vec2> a, std::span<const Vec2> b,
                   double tie_distance) {

@@ -104,4 +104,31 @@ TEST(Pages, NameOnlySourcesOfTheTree) {
   }
 }
 
+// `Job`, `kTieDistance`, `run_pipeline`, `architecture_test`: the pages for
+// those who change the code name only what is in it.
+TEST(Pages, NameOnlyWordsOfTheCode) {
+  std::set<std::string> words;
+  const std::regex word(R"(\w+)");
+  for (const fs::path& file : all_files()) {
+    const std::string extension = file.extension();
+    if (extension != ".h" && extension != ".cpp" &&
+        file.filename() != "CMakeLists.txt") {
+      continue;
+    }
+    std::ifstream text(file);
+    for (std::string line; std::getline(text, line);) {
+      words.insert(std::sregex_token_iterator(line.begin(), line.end(), word),
+                   std::sregex_token_iterator());
+    }
+  }
+  const fs::path docs = kRoot / "docs";
+  for (const Name& name :
+       names_on({docs / "design.md", docs / "glossary.md", docs / "recipes.md",
+                 docs / "wrong-contour.md"},
+                std::regex(R"(`(?:\w+::)?(\w*[A-Z_]\w*)`)"))) {
+    EXPECT_TRUE(words.contains(name.words))
+        << name.page << ":" << name.line << " names " << name.words;
+  }
+}
+
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -10,92 +9,11 @@
 #include "ldni/image/paper_slicer.h"
 #include "ldni/section/leaf_section.h"
 #include "plane/cascade/kinetic_ray.h"
-#include "plane/point_grid.h"
-#include "plane/predicates.h"
-#include "plane/tie_distance.h"
 #include "slicer/check/thin/thin_finder.h"
+#include "slicer/slice/leaf_search.h"
 
 namespace lamina::slicer {
 namespace {
-
-// Boundary lies where a chain does, or one that ties with it [mm].
-constexpr double kSearchDistance = 2 * kTieDistance;
-
-// Where chains are as near but for this [mm], that of the first leaf counts.
-constexpr double kSameDistance = 1e-9;
-
-// Finds the leaves whose surfaces are the sides of a thin place.
-//
-// Contours do not say which leaf a point comes from: the moving ray has no use
-// for it, and thin places are few. So the layer's chains are searched for one
-// that passes through the place. The places stand in a grid, where every
-// segment of a chain looks up those beside it.
-class LeafSearch {
- public:
-  // Sets the instances of stretches of layer `layer` of the block. Of leaves
-  // whose surfaces coincide it takes the first.
-  void find(const plane::ChainBlock& block, std::uint32_t layer,
-            std::span<ThinStretch> stretches) {
-    if (stretches.empty()) return;
-    places_.clear();
-    for (const ThinStretch& stretch : stretches) {
-      places_.insert(places_.end(), stretch.sides.begin(), stretch.sides.end());
-    }
-    members_.resize(places_.size());
-    std::iota(members_.begin(), members_.end(), 0U);
-    grid_.fill(places_, members_);
-    distances_.assign(places_.size(), kSearchDistance);
-    instances_.assign(places_.size(), kNoInstance);
-
-    // Chains come instance by instance, the first one first.
-    std::uint32_t instance = kNoInstance;
-    for (const plane::Chain& chain : block.layer(layer)) {
-      if (chain.operand != instance) look_between_endpoints(instance);
-      instance = chain.operand;
-      const std::span<const Vec2> points = chain.points_in(block.points);
-      for (std::size_t i = 1; i < points.size(); ++i) {
-        look_along(points[i - 1], points[i], instance);
-      }
-      endpoints_.push_back(points.front());
-      endpoints_.push_back(points.back());
-    }
-    look_between_endpoints(instance);
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      stretches[i / 2].instances[i % 2] = instances_[i];
-    }
-  }
-
- private:
-  // Upright edges belong to no chain: they stand between endpoints of chains at
-  // one x, which pair up from below.
-  void look_between_endpoints(std::uint32_t instance) {
-    std::ranges::sort(endpoints_, precedes);
-    for (std::size_t i = 1; i < endpoints_.size(); i += 2) {
-      if (endpoints_[i].y > endpoints_[i - 1].y) {
-        look_along(endpoints_[i - 1], endpoints_[i], instance);
-      }
-    }
-    endpoints_.clear();
-  }
-
-  void look_along(Vec2 from, Vec2 to, std::uint32_t instance) {
-    grid_.has_near(from, to, kSearchDistance, [&](std::uint32_t i) {
-      const double away = distance_to_segment(places_[i], from, to);
-      if (away < distances_[i] - kSameDistance) {
-        distances_[i] = away;
-        instances_[i] = instance;
-      }
-      return false;  // look at all
-    });
-  }
-
-  std::vector<Vec2> places_;  // two for each stretch
-  std::vector<std::uint32_t> members_;
-  PointGrid grid_;
-  std::vector<double> distances_;         // of the nearest chain to a place
-  std::vector<std::uint32_t> instances_;  // of that chain
-  std::vector<Vec2> endpoints_;           // of the chains of the instance
-};
 
 constexpr BlockSizes kFaithfulBlocks = {8, 32, 32};
 constexpr BlockSizes kPaperBlocks = {16, 64, 4};
@@ -120,7 +38,14 @@ class FaithfulSlicer : public BlockSlicer {
   }
   void find_leaves(std::uint32_t index,
                    std::span<ThinStretch> stretches) override {
-    leaf_search_.find(chains_, index, stretches);
+    places_.clear();
+    for (const ThinStretch& stretch : stretches) {
+      places_.insert(places_.end(), stretch.sides.begin(), stretch.sides.end());
+    }
+    const auto found = leaf_search_.find(chains_, index, places_);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      stretches[i / 2].instances[i % 2] = found[i];
+    }
   }
   void report_to(SliceReport& report) const override {
     report.sweep += ray_.counts();
@@ -132,6 +57,7 @@ class FaithfulSlicer : public BlockSlicer {
   plane::KineticRay ray_;
   ldni::SectionBlock chains_;
   LeafSearch leaf_search_;
+  std::vector<Vec2> places_;  // two for each stretch
   std::uint64_t open_paths_ = 0;
 };
 

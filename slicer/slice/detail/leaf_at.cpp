@@ -22,15 +22,6 @@ struct Winding {
   std::int32_t number = 0;
 };
 
-double y_at(std::span<const Vec2> points, double x) {
-  const auto right =
-      std::partition_point(points.begin() + 1, points.end() - 1,
-                           [x](const Vec2& point) { return point.x <= x; });
-  const Vec2& b = *right;
-  const Vec2& a = *(right - 1);
-  return a.y + (x - a.x) * (b.y - a.y) / (b.x - a.x);
-}
-
 // The instances that contain a place of a layer, ascending.
 class LeafFinder {
  public:
@@ -45,7 +36,7 @@ class LeafFinder {
     for (const plane::Chain& chain : block_.layer(0)) {
       const auto points = chain.points_in(block_.points);
       if (place.x < points.front().x || place.x >= points.back().x) continue;
-      if (y_at(points, place.x) > place.y) continue;
+      if (plane::y_at(points, place.x) > place.y) continue;
       if (windings.empty() || windings.back().instance != chain.operand) {
         windings.push_back({chain.operand});
       }
