@@ -20,8 +20,6 @@ constexpr double kMargin = 0.03;
 constexpr double kThinLine = 0.002;
 constexpr double kMarkRadius = 0.006;
 
-constexpr double kWidth = 1000;  // of a drawing that is not upright [pixels]
-
 // The layer that holds the height: [bottom, top).
 std::uint32_t layer_at(const ldni::LayerGrid& grid, double z) {
   std::uint32_t nearest = 0;
@@ -74,83 +72,70 @@ void set(pugi::xml_node node, const char* name, const Value& value) {
   node.append_attribute(name).set_value(fmt::format("{}", value).c_str());
 }
 
+pugi::xml_node add_shape(pugi::xml_node group, const char* name,
+                         const DumpItem& item) {
+  pugi::xml_node node = group.append_child(name);
+  set(node, "stroke", colour_of(item.instance));
+  node.append_child("title").text().set(item.text.c_str());
+  return node;
+}
+
+// side  the greater one of the drawing [mm]
+void draw_marks(pugi::xml_node group, const DumpItem& item, double side) {
+  for (const Vec2& point : item.points) {
+    pugi::xml_node mark = add_shape(group, "circle", item);
+    set(mark, "cx", point.x);
+    set(mark, "cy", point.y);
+    set(mark, "r", kMarkRadius * side);
+    set(mark, "pointer-events", "all");
+  }
+}
+
+void draw_line(pugi::xml_node group, const DumpItem& item, double side) {
+  pugi::xml_node line = add_shape(group, "polyline", item);
+  set(line, "points", points_text(item.points));
+  if (item.shape == DumpShape::kLine) return;
+  set(line, "stroke-dasharray", 4 * kThinLine * side);
+}
+
 // Draws the items over the filled contours. A group turns y upwards.
-class Drawing {
- public:
-  Drawing(const std::string& title, const plane::Contours& contours,
-          const std::vector<DumpItem>& items) {
-    Box2 box;
-    box.add(std::span<const Vec2>(contours.points));
-    for (const DumpItem& item : items) {
-      box.add(std::span<const Vec2>(item.points));
-    }
-    if (box.is_empty()) box.add(Vec2(0));
-    begin(title, box);
-    std::string path;
-    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-      path += fmt::format("M{}Z", points_text(contours.loop(i)));
-    }
-    pugi::xml_node solid = group_.append_child("path");
-    set(solid, "fill", "#ddd");
-    set(solid, "d", path);
-    for (const DumpItem& item : items) draw(item);
+std::string drawing_of(const std::string& title,
+                       const plane::Contours& contours,
+                       const std::vector<DumpItem>& items) {
+  Box2 box;
+  for (const DumpItem& item : items) box.add(std::span(item.points));
+  std::string path;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    path += fmt::format("M{}Z", points_text(contours.loop(i)));
   }
+  if (box.is_empty()) box.add(Vec2(0));
+  const double side = std::max({box.size().x, box.size().y, 1e-6});
+  const Vec2 low = box.low - Vec2(kMargin * side);
+  const Vec2 high = box.high + Vec2(kMargin * side);
 
-  std::string text() const {
-    std::ostringstream stream;
-    document_.save(stream, "");
-    return stream.str();
+  pugi::xml_document document;
+  pugi::xml_node svg = document.append_child("svg");
+  set(svg, "xmlns", "http://www.w3.org/2000/svg");
+  set(svg, "viewBox",
+      fmt::format("{} {} {} {}", low.x, -high.y, high.x - low.x,
+                  high.y - low.y));
+  svg.append_child("title").text().set(title.c_str());
+  pugi::xml_node group = svg.append_child("g");
+  set(group, "transform", "scale(1,-1)");
+  set(group, "fill", "none");
+  set(group, "stroke-width", kThinLine * side);
+  pugi::xml_node solid = group.append_child("path");
+  set(solid, "fill", "#ddd");
+  set(solid, "d", path);
+  for (const DumpItem& item : items) {
+    if (item.shape == DumpShape::kNone) continue;
+    const auto draw = item.shape == DumpShape::kMarks ? draw_marks : draw_line;
+    draw(group, item, side);
   }
-
- private:
-  void begin(const std::string& title, const Box2& box) {
-    side_ = std::max({box.size().x, box.size().y, 1e-6});
-    const Vec2 margin(kMargin * side_);
-    const Vec2 low = box.low - margin;
-    const Vec2 size = box.size() + 2.0 * margin;
-    pugi::xml_node svg = document_.append_child("svg");
-    set(svg, "xmlns", "http://www.w3.org/2000/svg");
-    set(svg, "viewBox",
-        fmt::format("{} {} {} {}", low.x, -(low.y + size.y), size.x, size.y));
-    set(svg, "width", kWidth * std::min(1.0, size.x / size.y));
-    svg.append_child("title").text().set(title.c_str());
-    group_ = svg.append_child("g");
-    set(group_, "transform", "scale(1,-1)");
-    set(group_, "fill", "none");
-    set(group_, "stroke-width", kThinLine * side_);
-  }
-
-  void draw(const DumpItem& item) {
-    if (item.shape == DumpShape::kNone) return;
-    if (item.shape == DumpShape::kMarks) return draw_marks(item);
-    pugi::xml_node line = add_shape("polyline", item);
-    set(line, "points", points_text(item.points));
-    if (item.shape == DumpShape::kFrame) {
-      set(line, "stroke-dasharray", 4 * kThinLine * side_);
-    }
-  }
-
-  void draw_marks(const DumpItem& item) {
-    for (const Vec2& point : item.points) {
-      pugi::xml_node mark = add_shape("circle", item);
-      set(mark, "cx", point.x);
-      set(mark, "cy", point.y);
-      set(mark, "r", kMarkRadius * side_);
-      set(mark, "pointer-events", "all");
-    }
-  }
-
-  pugi::xml_node add_shape(const char* name, const DumpItem& item) {
-    pugi::xml_node node = group_.append_child(name);
-    set(node, "stroke", colour_of(item.instance));
-    node.append_child("title").text().set(item.text.c_str());
-    return node;
-  }
-
-  pugi::xml_document document_;
-  pugi::xml_node group_;
-  double side_ = 0;  // the greater one [mm]
-};
+  std::ostringstream stream;
+  document.save(stream, "");
+  return stream.str();
+}
 
 }  // namespace
 
@@ -170,7 +155,7 @@ std::string dump_layer(const csg::Scene& scene, const ldni::LayerGrid& grid,
     const std::vector<DumpItem> chains = stage_items(layer, DumpStage::kChains);
     items.insert(items.begin(), chains.begin(), chains.end());
   }
-  return Drawing(title, layer.contours, items).text();
+  return drawing_of(title, layer.contours, items);
 }
 
 }  // namespace lamina::slicer
