@@ -1,6 +1,7 @@
 #include "ldni/section/leaf_section.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <mutex>
 #include <unordered_map>
@@ -10,7 +11,6 @@
 #include <glm/matrix.hpp>
 
 #include "ldni/section/detail/csg_pruning.h"
-#include "ldni/section/detail/layer_index.h"
 #include "ldni/section/detail/loft_section.h"
 #include "ldni/section/detail/mesh_index.h"
 #include "ldni/section/detail/mesh_section.h"
@@ -45,25 +45,43 @@ bool boxes_meet(const csg::Instance& instance, const Box3& box) {
   return true;
 }
 
-// Returns the layers that each instance may reach. Outside the scene's box the
-// result is empty whatever the leaves are there, so what lies wholly outside is
-// left out, as is what others decide.
-std::vector<LayerSpan> layer_spans(const csg::Scene& scene,
-                                   const LayerGrid& grid) {
-  std::vector<LayerSpan> spans;
-  spans.reserve(scene.instances.size());
+// The layers that an instance may reach.
+struct Reach {
+  std::uint32_t instance = 0;
+  LayerSpan layers;
+};
+
+// Returns the instances that reach a layer. Outside the scene's box the result
+// is empty whatever the leaves are there, so what lies wholly outside is left
+// out, as is what others decide.
+//
+// They are in the order of their lengths, in powers of two, and then of where
+// they begin, in steps of that. Any order would do that is the same for all
+// blocks; by this one files list their loops as they always have.
+std::vector<Reach> find_reaches(const csg::Scene& scene,
+                                const LayerGrid& grid) {
+  std::vector<Reach> reaches;
   detail::CsgPruning pruning(scene);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const csg::Instance& instance = scene.instances[i];
-    LayerSpan span;
-    if (!instance.box.is_empty() && boxes_meet(instance, scene.box) &&
-        pruning.matters(i)) {
-      span.first = grid.layers_below(instance.box.low.z - kBoxMargin);
-      span.last = grid.layers_below(instance.box.high.z + kBoxMargin);
+    if (instance.box.is_empty() || !boxes_meet(instance, scene.box) ||
+        !pruning.matters(i)) {
+      continue;
     }
-    spans.push_back(span);
+    const LayerSpan layers = {
+        grid.layers_below(instance.box.low.z - kBoxMargin),
+        grid.layers_below(instance.box.high.z + kBoxMargin)};
+    if (layers.first < layers.last) reaches.push_back({i, layers});
   }
-  return spans;
+  const auto place = [](const Reach& reach) {
+    const int level =
+        std::bit_width(reach.layers.last - reach.layers.first - 1);
+    return std::pair(level, reach.layers.first >> level);
+  };
+  std::stable_sort(
+      reaches.begin(), reaches.end(),
+      [&](const Reach& a, const Reach& b) { return place(a) < place(b); });
+  return reaches;
 }
 
 }  // namespace
@@ -79,7 +97,7 @@ struct LeafSectioner::State {
   };
 
   State(const csg::Scene& s, const LayerGrid& g)
-      : scene(s), grid(g), index(layer_spans(s, g), g.layer_count()) {
+      : scene(s), grid(g), reaches(find_reaches(s, g)) {
     for (std::uint32_t i = 0; i < s.instances.size(); ++i) {
       if (!s.leaves[s.instances[i].leaf].meshes.empty()) meshes[i];
     }
@@ -92,7 +110,7 @@ struct LeafSectioner::State {
 
   const csg::Scene& scene;
   const LayerGrid& grid;
-  detail::LayerIndex index;
+  std::vector<Reach> reaches;
   // The indices of instances that have meshes.
   mutable std::unordered_map<std::uint32_t, IndexedMeshes> meshes;
 };
@@ -163,9 +181,10 @@ void LeafSectioner::cut(std::uint32_t first_layer, std::uint32_t layer_count,
   // Cut the instances that reach it.
   const std::uint64_t open_before = scratch.meshes.open_paths();
   scratch.builder.begin(block);
-  state_->index.visit(
-      {first_layer, first_layer + layer_count},
-      [&](std::uint32_t instance) { state_->cut_instance(instance, scratch); });
+  const LayerSpan reached = layers.span();
+  for (const auto& [instance, layers_of_it] : state_->reaches) {
+    if (layers_of_it.meets(reached)) state_->cut_instance(instance, scratch);
+  }
   scratch.builder.finish(block);
   block.open_paths = scratch.meshes.open_paths() - open_before;
 }

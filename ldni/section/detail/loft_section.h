@@ -36,6 +36,7 @@
 
 #include "base/lanes.h"
 #include "csg/scene.h"
+#include "ldni/section/detail/mesh_index.h"
 #include "plane/chain_builder.h"
 
 namespace lamina::ldni::detail {
@@ -46,6 +47,10 @@ struct BlockLayers {
   std::vector<double> heights;     // section_z
   std::vector<double> thresholds;  // LayerGrid::threshold
   double layers_per_mm = 0;        // for a guess; 0 where uneven
+
+  LayerSpan span() const {
+    return {first, first + static_cast<std::uint32_t>(heights.size())};
+  }
 
   // Number of layers of the block whose threshold is below z.
   std::uint32_t layers_below(double z) const;

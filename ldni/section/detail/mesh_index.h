@@ -14,10 +14,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "csg/scene.h"
-#include "ldni/section/detail/layer_index.h"
 #include "ldni/section/grid.h"
 
 namespace lamina::ldni::detail {
@@ -27,6 +27,16 @@ inline double height_of(const Affine& world_from_leaf, const Vec3& point) {
   const Affine& m = world_from_leaf;
   return m[0].z * point.x + m[1].z * point.y + m[2].z * point.z + m[3].z;
 }
+
+// Layers [first, last).
+struct LayerSpan {
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+
+  bool meets(const LayerSpan& other) const {
+    return std::max(first, other.first) < std::min(last, other.last);
+  }
+};
 
 // Heights from the lowest to the highest point.
 struct HeightRange {

@@ -25,22 +25,15 @@ void MeshSectioner::cut(const csg::Mesh& mesh, const MeshIndex& index,
   trace_all(false);
 }
 
-bool MeshSectioner::meets_block(LayerSpan layers) const {
-  const auto count = static_cast<std::uint32_t>(layers_->heights.size());
-  return layers.first < layers.last && layers.last > layers_->first &&
-         layers.first < layers_->first + count;
-}
-
 void MeshSectioner::count_layers_below(const MeshIndex& index) {
   const csg::Mesh& mesh = *mesh_;
   layers_below_.resize(mesh.vertices.size());
-  const std::uint32_t end_layer =
-      layers_->first + static_cast<std::uint32_t>(layers_->heights.size());
+  const LayerSpan block = layers_->span();
   index.vertices.for_each([&](LayerSpan layers, std::size_t begin,
                               std::size_t end) {
-    if (!meets_block(layers)) {
+    if (!layers.meets(block)) {
       const std::uint32_t below =
-          std::clamp(layers.first, layers_->first, end_layer) - layers_->first;
+          std::clamp(layers.first, block.first, block.last) - block.first;
       std::fill(layers_below_.data() + begin, layers_below_.data() + end,
                 below);
       return;
@@ -54,11 +47,12 @@ void MeshSectioner::count_layers_below(const MeshIndex& index) {
 
 void MeshSectioner::find_crossed(const MeshIndex& index) {
   const csg::Mesh& mesh = *mesh_;
+  const LayerSpan block = layers_->span();
   crossed_.clear();
   flag_count_ = 0;
   index.triangles.for_each(
       [&](LayerSpan layers, std::size_t begin, std::size_t end) {
-        if (!meets_block(layers)) return;
+        if (!layers.meets(block)) return;
         for (std::size_t i = begin; i < end; ++i) {
           const auto& corners = mesh.triangles[i];
           const std::uint32_t a = layers_below_[corners[0]];
@@ -80,7 +74,7 @@ bool MeshSectioner::pair_edges() {
   // A triangle that one layer crosses has two crossed edges, each of them
   // shared; no triangle has more than three. So a quarter of the slots is free.
   slots_.assign(std::bit_ceil(2 * crossed_.size()), {});
-  twins_.assign(3 * crossed_.size(), kNone);
+  partners_.assign(3 * crossed_.size(), kNone);
   waiting_count_ = 0;
   for (std::uint32_t i = 0; i < crossed_.size(); ++i) {
     const auto& corners = mesh.triangles[crossed_[i].triangle];
@@ -95,7 +89,7 @@ bool MeshSectioner::pair_edges() {
   if (waiting_count_ == 0) return true;
   for (const EdgeSlot& slot : slots_) {
     for (std::uint32_t waiting = slot.waiting; waiting != kNone;) {
-      waiting = std::exchange(twins_[waiting], kNone);
+      waiting = std::exchange(partners_[waiting], kNone);
     }
   }
   return false;
@@ -112,13 +106,13 @@ void MeshSectioner::pair_edge(std::uint32_t from, std::uint32_t to,
   EdgeSlot& slot = slots_[i];
   slot.key = key;
   if (slot.waiting != kNone && slot.waits_ascending != is_ascending) {
-    const std::uint32_t twin = slot.waiting;
-    slot.waiting = twins_[twin];
-    twins_[twin] = half_edge;
-    twins_[half_edge] = twin;
+    const std::uint32_t partner = slot.waiting;
+    slot.waiting = partners_[partner];
+    partners_[partner] = half_edge;
+    partners_[half_edge] = partner;
     --waiting_count_;
   } else {
-    twins_[half_edge] = slot.waiting;
+    partners_[half_edge] = slot.waiting;
     slot.waiting = half_edge;
     slot.waits_ascending = is_ascending;
     ++waiting_count_;
@@ -154,7 +148,7 @@ bool MeshSectioner::is_entered_openly(std::uint32_t crossed,
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t next = k == 2 ? 0 : k + 1;
     if (is_above(corners[k], layer) && !is_above(corners[next], layer)) {
-      return twins_[3 * crossed + k] == kNone;
+      return partners_[3 * crossed + k] == kNone;
     }
   }
   return false;
@@ -171,9 +165,9 @@ void MeshSectioner::trace(std::uint32_t start, std::uint32_t layer) {
     const std::uint32_t corner = exit_corner(current, layer);
     const auto& corners = mesh_->triangles[crossed.triangle];
     add_point(corners[corner], corners[corner == 2 ? 0 : corner + 1]);
-    const std::uint32_t twin = twins_[3 * current + corner];
-    if (twin == kNone) break;
-    current = twin / 3;
+    const std::uint32_t partner = partners_[3 * current + corner];
+    if (partner == kNone) break;
+    current = partner / 3;
   } while (current != start);
   builder_->close_loop(layer, instance_, orientation_);
 }

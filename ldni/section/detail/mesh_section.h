@@ -39,7 +39,7 @@ class MeshSectioner {
     std::uint32_t first_flag = 0;
   };
   // One hash slot an undirected edge; half-edges (3 · crossed + corner) that
-  // wait for a partner form a list through twins_.
+  // wait for a partner form a list through partners_.
   struct EdgeSlot {
     std::uint64_t key = kFree;
     std::uint32_t waiting = kNone;
@@ -48,8 +48,6 @@ class MeshSectioner {
   static constexpr std::uint64_t kFree = ~std::uint64_t{0};
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  // Whether a layer of the block passes there.
-  bool meets_block(LayerSpan layers) const;
   void count_layers_below(const MeshIndex& index);
   void find_crossed(const MeshIndex& index);
   bool pair_edges();
@@ -81,7 +79,7 @@ class MeshSectioner {
   std::uint64_t open_paths_ = 0;
   std::vector<std::uint32_t> layers_below_;  // a vertex
   std::vector<CrossedTriangle> crossed_;
-  std::vector<std::uint32_t> twins_;  // a half-edge; kNone: open
+  std::vector<std::uint32_t> partners_;  // a half-edge; kNone: open
   std::vector<EdgeSlot> slots_;
   std::size_t waiting_count_ = 0;  // half-edges in slots_
   std::vector<bool> is_passed_;
