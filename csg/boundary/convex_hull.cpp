@@ -52,7 +52,7 @@ void make_unique(std::vector<Vec3>& points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-// The number of the point for which `measure` is greatest.
+// Returns the number of the point for which `measure` is greatest.
 template <typename Measure>
 std::uint32_t find_greatest(const std::vector<Vec3>& points, Measure measure) {
   std::uint32_t best = 0;
@@ -102,8 +102,9 @@ Span find_span(const std::vector<Vec3>& points) {
   return span;
 }
 
-// Triangles of the hull's faces, on those points only that are corners. Empty
-// where the simplex turns out to be flat, as it may along a needle of points.
+// Returns triangles of the hull's faces, on those points only that are corners.
+// Empty where the simplex turns out to be flat, as it may along a sliver of
+// points.
 Mesh hull_of_solid(const std::vector<Vec3>& points,
                    const std::array<std::uint32_t, 4>& simplex) {
   Mesh mesh;
@@ -127,7 +128,7 @@ Mesh hull_of_solid(const std::vector<Vec3>& points,
   return mesh;
 }
 
-// The corners of unique points in a plane.
+// Returns the corners of unique points in a plane.
 FlatHull hull_in_plane(const std::vector<Vec3>& points, Vec3 normal) {
   // Seen along the axis nearest to the normal.
   const Vec3 size = glm::abs(normal);
@@ -148,28 +149,6 @@ FlatHull hull_in_plane(const std::vector<Vec3>& points, Vec3 normal) {
   return result;
 }
 
-// Instances of one leaf that differ by their shifts only.
-using Linear = std::array<double, 9>;
-using Shifts = std::map<std::pair<std::uint32_t, Linear>, std::vector<Vec3>>;
-
-Linear linear_of(const Affine& m) {
-  return {m[0].x, m[0].y, m[0].z, m[1].x, m[1].y,
-          m[1].z, m[2].x, m[2].y, m[2].z};
-}
-
-Affine affine_of(const Linear& m, Vec3 shift) {
-  return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}, shift};
-}
-
-Shifts shifts_of(const std::vector<Instance>& instances) {
-  Shifts shifts;
-  for (const Instance& instance : instances) {
-    const Affine& m = instance.world_from_leaf;
-    shifts[{instance.leaf, linear_of(m)}].push_back(m[3]);
-  }
-  return shifts;
-}
-
 // The hull of the points so far. Most faces of a Boolean soon lie inside of it,
 // and add nothing.
 class GrowingHull {
@@ -178,7 +157,7 @@ class GrowingHull {
     grow();
   }
 
-  // Not on its surface either.
+  // Whether the box lies inside, not on the surface either.
   bool is_within(const Box3& box) const {
     if (planes_.empty()) return false;
     const auto is_below = [&](const HalfSpace& plane) {
@@ -239,17 +218,6 @@ Mesh convex_hull(std::vector<Vec3> points) {
   return hull_of_solid(points, span.simplex);
 }
 
-std::vector<Vec3> extreme_points(std::vector<Vec3> points) {
-  make_unique(points);
-  if (points.size() <= 4) return points;
-  const Span span = find_span(points);
-  const auto& [a, b, c, d] = span.simplex;
-  if (span.dimension == 1) return {points[a], points[b]};
-  if (span.dimension == 2) return hull_in_plane(points, span.normal).corners;
-  const Mesh hull = hull_of_solid(points, span.simplex);
-  return hull.triangles.empty() ? points : hull.vertices;
-}
-
 FlatHull flat_hull(std::vector<Vec3> points) {
   make_unique(points);
   if (points.size() < 2) return {points, Vec3(0, 0, 1)};
@@ -266,14 +234,12 @@ FlatHull flat_hull(std::vector<Vec3> points) {
 
 Mesh convex_hull(Scene scene) {
   std::vector<Vec3> points;
-  for (auto& [shape, shifts] : shifts_of(take_united(scene))) {
-    const auto& [leaf, linear] = shape;
-    const std::vector<Vec3> vertices =
-        explicit_mesh(scene.leaves[leaf]).vertices;
-    for (const Vec3 shift : extreme_points(shifts)) {
-      const Affine m = affine_of(linear, shift);
-      for (const Vec3 vertex : vertices) points.push_back(m * Vec4(vertex, 1));
+  for (const Instance& instance : take_united(scene)) {
+    const Leaf& leaf = scene.leaves[instance.leaf];
+    for (const Vec3& vertex : explicit_mesh(leaf).vertices) {
+      points.push_back(instance.world_from_leaf * Vec4(vertex, 1));
     }
+    require_triangles(static_cast<double>(points.size()));
   }
   if (scene.instances.empty()) return convex_hull(std::move(points));
   GrowingHull hull(std::move(points));

@@ -1,85 +1,15 @@
 #include "csg/boundary/leaf_mesh.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
-#include "plane/region/triangulate.h"
+#include "csg/boundary/leaf_faces.h"
 
 namespace lamina::csg {
 namespace {
-
-using Triangle = std::array<std::uint32_t, 3>;
-
-void add_triangle(Mesh& mesh, bool is_cavity, Triangle t) {
-  if (is_cavity) std::swap(t[1], t[2]);
-  mesh.triangles.push_back(t);
-}
-
-// Appends one loft; an apex is one vertex, not a ring of equal ones.
-class LoftExpander {
- public:
-  LoftExpander(const Loft& loft, Mesh& mesh) : loft_(loft), mesh_(mesh) {}
-
-  void expand() {
-    add_vertices();
-    const std::size_t rings = loft_.profile.size();
-    const std::size_t bands = loft_.is_closed_profile ? rings : rings - 1;
-    for (std::size_t i = 0; i < bands; ++i) add_band(i, (i + 1) % rings);
-    if (loft_.is_closed_profile) return;
-    add_cap(0, true);
-    add_cap(rings - 1, false);
-  }
-
- private:
-  bool is_apex(std::size_t ring) const { return loft_.profile[ring].x == 0; }
-
-  void add_vertices() {
-    for (const Vec2 ring : loft_.profile) {
-      ring_begins_.push_back(static_cast<std::uint32_t>(mesh_.vertices.size()));
-      if (ring.x == 0) {
-        mesh_.vertices.push_back({0, 0, ring.y});
-        continue;
-      }
-      for (const Vec2 point : *loft_.outline) {
-        mesh_.vertices.push_back({ring.x * point.x, ring.x * point.y, ring.y});
-      }
-    }
-  }
-
-  std::uint32_t vertex(std::size_t ring, std::size_t j) const {
-    const std::size_t point = is_apex(ring) ? 0 : j % loft_.outline->size();
-    return ring_begins_[ring] + static_cast<std::uint32_t>(point);
-  }
-
-  void add_band(std::size_t low, std::size_t high) {
-    for (std::size_t j = 0; j < loft_.outline->size(); ++j) {
-      if (!is_apex(low)) {
-        add_triangle(mesh_, loft_.is_cavity,
-                     {vertex(low, j), vertex(low, j + 1), vertex(high, j + 1)});
-      }
-      if (!is_apex(high)) {
-        add_triangle(mesh_, loft_.is_cavity,
-                     {vertex(low, j), vertex(high, j + 1), vertex(high, j)});
-      }
-    }
-  }
-
-  void add_cap(std::size_t ring, bool faces_down) {
-    if (is_apex(ring)) return;
-    const plane::Region cap{{*loft_.outline}};
-    for (const Triangle& t : plane::triangulate(cap)) {
-      add_triangle(
-          mesh_, loft_.is_cavity != faces_down,
-          {vertex(ring, t[0]), vertex(ring, t[1]), vertex(ring, t[2])});
-    }
-  }
-
-  const Loft& loft_;
-  Mesh& mesh_;
-  std::vector<std::uint32_t> ring_begins_;
-};
 
 struct Range {
   double low = 1e300;
@@ -91,7 +21,7 @@ struct Range {
   }
 };
 
-// Range of row · vertex over all vertices of the loft.
+// Returns the range of row · vertex over all vertices of the loft.
 Range range_along(const Loft& loft, Vec3 row) {
   Range plan;
   for (const Vec2 point : *loft.outline) {
@@ -126,23 +56,27 @@ void extend(Box3& box, const Mesh& mesh, const Affine& linear) {
 
 }  // namespace
 
-Mesh explicit_mesh(const Leaf& leaf) {
-  Mesh result;
-  for (const Loft& loft : leaf.lofts) LoftExpander(loft, result).expand();
-  for (const Mesh& mesh : leaf.meshes) {
-    const auto shift = static_cast<std::uint32_t>(result.vertices.size());
-    result.vertices.insert(result.vertices.end(), mesh.vertices.begin(),
-                           mesh.vertices.end());
-    for (const Triangle& t : mesh.triangles) {
-      result.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-    }
+void append(Mesh& mesh, const Mesh& other) {
+  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(),
+                       other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) {
+    mesh.triangles.push_back({a + shift, b + shift, c + shift});
   }
+}
+
+Mesh explicit_mesh(const Leaf& leaf) {
+  Leaf lofts;
+  lofts.lofts = leaf.lofts;
+  LeafFaces faces = faces_of(lofts, Affine(1.0));
+  Mesh result{std::move(faces.vertices), std::move(faces.triangles)};
+  for (const Mesh& mesh : leaf.meshes) append(result, mesh);
   return result;
 }
 
 double signed_volume(const Mesh& mesh) {
   double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (const auto& t : mesh.triangles) {
     sum += glm::dot(mesh.vertices[t[0]],
                     glm::cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
   }

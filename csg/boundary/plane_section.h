@@ -113,8 +113,8 @@ class WindowSection {
   // border of the section comes near, and all of it has to be looked at.
   std::optional<bool> uniform_value(Side side) const;
 
-  // Contours that have, at each point of the window, the leaf's winding number.
-  // Outside of the window they mean nothing.
+  // Contours that have, at each point of the window, the leaf's winding
+  // number. Outside of the window they mean nothing.
   plane::Region contours(Side side) const;
 
  private:

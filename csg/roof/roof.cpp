@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/convex_hull.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "csg/degrees.h"
 #include "csg/roof/detail/roof_border.h"
 #include "csg/roof/detail/tracks.h"
@@ -94,13 +95,7 @@ class Cutters {
   Mesh mesh() {
     Mesh mesh;
     for (std::vector<Vec3>& points : solids_) {
-      const Mesh hull = convex_hull(std::move(points));
-      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.insert(mesh.vertices.end(), hull.vertices.begin(),
-                           hull.vertices.end());
-      for (const auto& [a, b, c] : hull.triangles) {
-        mesh.triangles.push_back({first + a, first + b, first + c});
-      }
+      append(mesh, convex_hull(std::move(points)));
     }
     return mesh;
   }

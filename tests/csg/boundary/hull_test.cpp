@@ -68,20 +68,8 @@ TEST(ConvexHull, KeepsItsShapeFarFromTheOrigin) {
   EXPECT_EQ(mesh.vertices.size(), 8u);
 }
 
-TEST(ExtremePoints, OfALineAndAPlaneAreTheirCorners) {
-  EXPECT_EQ(
-      extreme_points({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {3, 6, 9}, {4, 8, 12}})
-          .size(),
-      2u);
-  std::vector<Vec3> tilted;
-  for (int i = 0; i <= 5; ++i) {
-    for (int j = 0; j <= 5; ++j) tilted.emplace_back(i, j, i + 2 * j);
-  }
-  EXPECT_EQ(extreme_points(tilted).size(), 4u);
-}
-
 // Rows along all directions, rounded as sums of products are.
-TEST(ExtremePoints, OfARowAreItsEndsWhateverRoundingDoes) {
+TEST(FlatHull, OfARowIsItsEndsWhateverRoundingDoes) {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> number(-1, 1);
   const auto vector = [&] {
@@ -100,43 +88,10 @@ TEST(ExtremePoints, OfARowAreItsEndsWhateverRoundingDoes) {
     }
     const std::vector<Vec3> ends = {row.front(), row.back()};
     std::ranges::shuffle(row, random);
-    std::vector<Vec3> found = extreme_points(row);
-    ASSERT_EQ(found.size(), 2u);
-    if (glm::dot(found[1] - found[0], along) < 0) std::swap(found[0], found[1]);
-    EXPECT_EQ(found, ends);
     std::vector<Vec3> flat = flat_hull(row).corners;
     ASSERT_EQ(flat.size(), 2u);
     if (glm::dot(flat[1] - flat[0], along) < 0) std::swap(flat[0], flat[1]);
     EXPECT_EQ(flat, ends);
-  }
-}
-
-// So short that rounding gives it a volume of its own, or nearly.
-TEST(ExtremePoints, OfAShortRowFarAwayReachAsFar) {
-  std::mt19937_64 random(19);
-  std::uniform_real_distribution<double> number(-1, 1);
-  const auto vector = [&](double size) {
-    const double x = size * number(random);
-    const double y = size * number(random);
-    return Vec3(x, y, size * number(random));
-  };
-  for (int trial = 0; trial < 3000; ++trial) {
-    SCOPED_TRACE(trial);
-    const double far = std::pow(10, 2.5 * (number(random) + 1));
-    const Vec3 along = vector(std::pow(10, 3 * number(random) - 3));
-    const Vec3 start = vector(far);
-    std::vector<Vec3> row;
-    for (int i = 0; i < 9; ++i) {
-      const Vec3 away = vector(far);
-      row.push_back((start + along * (i * 0.1) + away) - away);
-    }
-    const std::vector<Vec3> found = extreme_points(row);
-    for (const Vec3 end : {row.front(), row.back()}) {
-      double nearest = far;
-      for (const Vec3 p : found)
-        nearest = std::min(nearest, glm::distance(p, end));
-      EXPECT_LE(nearest, 1e-12 * far);
-    }
   }
 }
 
