@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,14 +65,10 @@ concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
 struct SharedTables {
   HullTable hulls;
   std::map<std::string, Leaf> decimated;  // by file, arguments and tolerance
-  // Of resize(): how far each makes its subtree larger, as far as is known. Its
-  // facets are finer by that; the factor depends on the facets in turn, so the
-  // outermost resize() has all below lowered until none grows any more.
+  // How far each resize() makes its subtree larger, as a draft of the outermost
+  // one has found. Its facets are finer by that.
   std::map<const Node*, Vec3> growths;
-  bool is_resizing = false;
-  bool has_grown = false;
-  std::set<const Node*> empty;        // of resizes, in this lowering
-  std::set<const Node*> known_empty;  // with far finer facets, too
+  bool is_drafting = false;
 };
 
 class Lowerer {
@@ -215,12 +210,10 @@ class Lowerer {
     Apart apart;
     std::optional<Vec3> factor;  // none of what is empty
   };
-  // With facets finer by the growth known so far; notes it where it is greater.
+  // With facets finer by the growth known so far; notes it where none is.
   Resized resize(const Resize& op, const Place& at);
-  // Of an outermost resize(): notes how far all below it grow, from drafts.
+  // Notes how far an outermost resize() and all below it grow, from a draft.
   void draft_sizes(const Resize& op, const Place& at);
-  // Of an outermost resize(): with facets that are fine enough.
-  Resized resize_finely(const Resize& op, const Place& at);
 
   // --- lower_minkowski.cpp --------------------------------------------------
   Shape lower_op(const Minkowski& op, const Place& at);
