@@ -121,18 +121,19 @@ Parameter to_parameter(const CustomizerEntry& entry) {
 Point to_point(Vec2 place) { return {place.x, place.y}; }
 
 // The lines of the design that made it; empty where they are not known.
-std::string origin_at(const std::vector<std::string>& origins, std::size_t i) {
-  return i < origins.size() ? origins[i] : std::string();
+std::string source_line_at(const std::vector<std::string>& source_lines,
+                           std::size_t i) {
+  return i < source_lines.size() ? source_lines[i] : std::string();
 }
 
 std::vector<ThinPlace> to_places(const compiler::Inspection& inspection) {
-  const auto origins = compiler::texts_of(inspection.lines.features);
+  const auto source_lines = compiler::texts_of(inspection.lines.features);
   std::vector<ThinPlace> places;
   for (const slicer::ThinFeature& feature : inspection.found.features) {
     places.push_back({feature.kind == slicer::ThinKind::kWall, feature.width,
                       to_point(feature.place), feature.section_z,
                       feature.bottom, feature.top,
-                      origin_at(origins, places.size())});
+                      source_line_at(source_lines, places.size())});
   }
   return places;
 }
@@ -140,13 +141,13 @@ std::vector<ThinPlace> to_places(const compiler::Inspection& inspection) {
 std::vector<Finding> to_findings(const compiler::Inspection& inspection) {
   std::vector<Finding> findings;
   if (!inspection.found.print) return findings;
-  const auto origins = compiler::texts_of(inspection.lines.findings);
+  const auto source_lines = compiler::texts_of(inspection.lines.findings);
   for (const slicer::Finding& found : inspection.found.print->findings) {
     findings.push_back({static_cast<Finding::Kind>(found.kind), found.is_minor,
                         found.first_layer, found.last_layer, found.bottom,
                         found.top, to_point(found.place), found.section_z,
                         found.area, found.volume, found.distance,
-                        origin_at(origins, findings.size())});
+                        source_line_at(source_lines, findings.size())});
   }
   return findings;
 }

@@ -39,7 +39,7 @@ int show_fault(std::string_view message, int status = kUsageFault) {
   return status;
 }
 
-// For the first word that is no option but much like one.
+// For the first word that is not an option but much like one.
 std::string hint_for(const CLI::App& app) {
   std::vector<std::string> own;
   for (const CLI::Option* option : app.get_options()) {

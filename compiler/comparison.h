@@ -4,7 +4,7 @@
 // Whichever of them can be cut is cut at the sections of the other, and once
 // below and once above them: a file that ends too early differs there. Files
 // and meshes round heights. So where a section lies in a horizontal face, the
-// two can be on different sides of it, which is no difference of the part:
+// two can be on different sides of it, which is not a difference of the part:
 // layers that differ are cut again just below and just above.
 
 #include <list>

@@ -120,7 +120,7 @@ bool compile(Compilation& c) {
   if (ends_strictly(c)) return false;
 
   // The syntax tree is written before anything is evaluated: what a design
-  // does is no matter of its syntax.
+  // does is not a matter of its syntax.
   if (format == OutputFormat::kAst || format == OutputFormat::kParam) {
     write_stage(c, begin_rule(c).get());
     return true;

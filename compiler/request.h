@@ -86,7 +86,7 @@ struct Request {
 
 // Meshes and drawings can stand in the place of a design: `lamina ring.stl`
 // slices what `import("ring.stl");` makes. By its name: what import() reads and
-// is no design and no file of layers, in any letter case. (A .3mf may hold
+// is not a design and no file of layers, in any letter case. (A .3mf may hold
 // either; import() takes its mesh.)
 bool is_imported(const std::string& path);
 

@@ -64,7 +64,7 @@ struct ThinPlace {
   double top = 0;       // of its highest layer [mm]
   // The lines of the design that made it: "ring.scad:12:3", or with the call
   // that led there, "lib.scad:8:5 from ring.scad:40:3"; joined by ", ".
-  std::string origin;
+  std::string source_line;
 };
 
 // What would go wrong in the print.
@@ -88,7 +88,7 @@ struct Finding {
   double volume = 0;    // of loose parts, cups and traps [mm³]
   double distance = 0;  // of an overhang, to what holds it [mm]
   // The line of the design that made it, as in ThinPlace; empty: not known.
-  std::string origin;
+  std::string source_line;
 };
 
 // What layers hold, and what is wrong with them.

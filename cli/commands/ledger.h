@@ -48,7 +48,7 @@ class FileDigests {
     access_.report_to(nullptr);  // to know a file again is not to read it
   }
 
-  // "none" for what is no file that may be read.
+  // "none" for what is not a file that may be read.
   std::string digest_of(const std::string& path);
 
  private:

@@ -46,8 +46,8 @@ struct TableOptions {
 
 // The pieces of the share, in the order of the table, whose outputs have been
 // told to RunFiles. What is wrong with a row is the fault of its piece; what is
-// wrong with more than that, such as a column that is no variable, is an error
-// in `diagnostics`, and nothing can be made then.
+// wrong with more than that, such as a column that is not a variable, is an
+// error in `diagnostics`, and nothing can be made then.
 //
 // options  outlives the result, as do the others
 // sources  keeps the places of errors

@@ -29,10 +29,10 @@ namespace {
 // worth.
 constexpr std::uint64_t kFarthestAhead = 4096;
 
-class Workshop {
+class WorkerPool {
  public:
-  Workshop(PieceSource& pieces, const PiecesOptions& options,
-           const Context& context, Outcomes& outcomes)
+  WorkerPool(PieceSource& pieces, const PiecesOptions& options,
+             const Context& context, Outcomes& outcomes)
       : pieces_(pieces),
         options_(options),
         context_(context),
@@ -87,8 +87,8 @@ class Workshop {
     std::string messages;
   };
 
-  // What is thrown here is no fault of a piece: memory lacks to begin one, the
-  // table has changed, the ledger cannot be written.
+  // What is thrown here is not a fault of a piece: memory lacks to begin one,
+  // the table has changed, the ledger cannot be written.
   std::exception_ptr work_caught(std::size_t stack) noexcept {
     try {
       work(stack);
@@ -215,7 +215,7 @@ int make_pieces(PieceSource& pieces, const PiecesOptions& options,
   const auto begin = std::chrono::steady_clock::now();
   context.watch.time_parts();
   Outcomes outcomes(options, pieces.count(), context.temporary_files);
-  Workshop(pieces, options, context, outcomes).run();
+  WorkerPool(pieces, options, context, outcomes).run();
   if (options.ledger != nullptr) options.ledger->finish();
   const std::chrono::duration<double> seconds =
       std::chrono::steady_clock::now() - begin;

@@ -230,9 +230,9 @@ void write_page(const compiler::Compilation& compilation,
   page.estimate = estimate_of(compilation, found);
   page.min_feature = min_feature;
   page.features = found.features;
-  page.origins = compiler::texts_of(inspection.lines.features);
+  page.source_lines = compiler::texts_of(inspection.lines.features);
   page.print = found.print;
-  page.finding_origins = compiler::texts_of(inspection.lines.findings);
+  page.finding_source_lines = compiler::texts_of(inspection.lines.findings);
   compiler::write_file(compilation.request.output.path,
                        viewer_page(inspection.layers, page),
                        compilation.temporary_files);

@@ -21,7 +21,7 @@ void add_common_options(CLI::App& app, ProcessLimits& limits,
 // of 1024. Throws CLI::ValidationError for all other texts.
 MemoryLimit parse_memory_limit(const std::string& text);
 
-// Throws RequestError for what is no folder.
+// Throws RequestError for what is not a folder.
 FileAccess make_file_access(const FileAccess::Limits& limits);
 
 }  // namespace lamina::cli

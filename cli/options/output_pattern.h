@@ -20,7 +20,7 @@ namespace lamina::cli {
 std::vector<std::string> words_of_pattern(std::string_view pattern);
 
 // The pattern with its words, and the braces around them, replaced. Throws
-// FileError where a word has a divisor and its value is no whole number, or
+// FileError where a word has a divisor and its value is not a whole number, or
 // where the result is '-': one of several outputs cannot be standard output.
 std::string fill_pattern(
     std::string_view pattern,

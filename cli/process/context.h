@@ -20,7 +20,7 @@ struct Context {
   }
 
   // Says what the command will write, before it does anything else. Throws as
-  // RunFiles::expect_output() does; what is empty is no output.
+  // RunFiles::expect_output() does; what is empty is not an output.
   void expect_outputs(std::initializer_list<std::string> paths) const {
     for (const std::string& path : paths) {
       file_access().run_files()->expect_output(path, file_access());

@@ -59,7 +59,7 @@ class ProcessWatch {
     const void* timed_;
   };
 
-  // Makes room for stacks to come: address space, which is no memory yet.
+  // Makes room for stacks to come: address space, which is not memory yet.
   void reserve(std::uint64_t bytes);
 
   // How long from now the next look can wait at most.

@@ -34,28 +34,28 @@ std::string counts_text(std::span<const ThinFeature* const> features) {
                      counted(features.size() - walls, "gap"));
 }
 
-// A line of the table: the thinnest of all features of one origin.
+// A line of the table: the thinnest of all features of one source line.
 struct Line {
   const ThinFeature* thinnest;
   std::size_t count = 0;
 };
 
-// A line for each kind and origin, or for each feature where origins are not
+// A line for each kind and source line, or for each feature where they are not
 // known; the thinnest first.
 std::vector<Line> lines_of(std::span<const ThinFeature* const> tall,
                            const ThinFeature* first,
-                           std::span<const std::string> origins) {
+                           std::span<const std::string> source_lines) {
   std::vector<Line> lines;
   std::map<std::tuple<ThinKind, bool, std::string_view>, std::size_t> known;
   for (const ThinFeature* const feature : tall) {
-    if (origins.empty()) {
+    if (source_lines.empty()) {
       lines.push_back({feature, 1});
       continue;
     }
-    const auto [at, is_new] =
-        known.try_emplace({feature->kind, is_edge(*feature),
-                           origins[static_cast<std::size_t>(feature - first)]},
-                          lines.size());
+    const auto [at, is_new] = known.try_emplace(
+        {feature->kind, is_edge(*feature),
+         source_lines[static_cast<std::size_t>(feature - first)]},
+        lines.size());
     if (is_new) lines.push_back({feature});
     Line& line = lines[at->second];
     ++line.count;
@@ -69,7 +69,7 @@ std::vector<Line> lines_of(std::span<const ThinFeature* const> tall,
 }  // namespace
 
 std::string feature_table(std::span<const ThinFeature> features, double width,
-                          std::span<const std::string> origins) {
+                          std::span<const std::string> source_lines) {
   std::vector<const ThinFeature*> tall;
   std::vector<const ThinFeature*> low;
   for (const ThinFeature& feature : features) {
@@ -78,11 +78,11 @@ std::string feature_table(std::span<const ThinFeature> features, double width,
   std::string text =
       fmt::format("thinner than {} mm: {}\n", width, counts_text(tall));
   const auto out = std::back_inserter(text);
-  const std::vector<Line> lines = lines_of(tall, features.data(), origins);
+  const std::vector<Line> lines = lines_of(tall, features.data(), source_lines);
   if (!lines.empty()) {
     fmt::format_to(out, "{:>9} {:>8} {:>11} {:>10} {:>10} {:>10}{}\n",
                    "width mm", "", "layers", "at z", "x", "y",
-                   origins.empty() ? "" : "  surface of");
+                   source_lines.empty() ? "" : "  surface of");
   }
   const std::size_t listed = std::min(lines.size(), kMostLines);
   for (const Line& line : std::span(lines).first(listed)) {
@@ -92,10 +92,10 @@ std::string feature_table(std::span<const ThinFeature> features, double width,
         is_edge(feature) ? "edge" : fmt::format("{:.4f}", feature.width),
         counted(line.count, name_of(feature.kind)), layers_text(feature),
         feature.section_z, feature.place.x, feature.place.y);
-    if (!origins.empty()) {
+    if (!source_lines.empty()) {
       fmt::format_to(
           out, "  {}",
-          origins[static_cast<std::size_t>(&feature - features.data())]);
+          source_lines[static_cast<std::size_t>(&feature - features.data())]);
     }
     text += '\n';
   }

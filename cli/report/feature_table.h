@@ -9,12 +9,13 @@
 namespace lamina::cli {
 
 // How many features there are and where, the thinnest first and edges last.
-// Features of one origin share a line, which shows the thinnest; low ones are
-// only counted. Each line ends with '\n'.
+// Features of one source line share a line, which shows the thinnest; low ones
+// are only counted. Each line ends with '\n'.
 //
 // width    that they are thinner than [mm]
-// origins  what made each, one text for a feature; empty if not known
+// source_lines  what made each, one text for a feature; empty if not known
 std::string feature_table(std::span<const slicer::ThinFeature> features,
-                          double width, std::span<const std::string> origins);
+                          double width,
+                          std::span<const std::string> source_lines);
 
 }  // namespace lamina::cli

@@ -28,7 +28,7 @@ std::string layers_text(const Finding& finding) {
              : fmt::format("{}-{}", finding.first_layer, finding.last_layer);
 }
 
-// A line of the table: the greatest of all findings of a kind and an origin.
+// A line of the table: the greatest of all findings of a kind and a source line.
 struct Line {
   std::size_t greatest = 0;  // index of the finding
   std::size_t count = 0;
@@ -47,17 +47,17 @@ double weight_of(const Finding& finding) {
 
 // By kind, then from the bottom to the top.
 std::vector<Line> lines_of(const std::vector<Finding>& findings,
-                           std::span<const std::string> origins) {
+                           std::span<const std::string> source_lines) {
   std::vector<Line> lines;
   std::map<std::pair<FindingKind, std::string_view>, std::size_t> known;
   for (std::size_t i = 0; i < findings.size(); ++i) {
     if (findings[i].is_minor) continue;
-    if (origins.empty() || origins[i].empty()) {
+    if (source_lines.empty() || source_lines[i].empty()) {
       lines.push_back({i, 1});
       continue;
     }
     const auto [at, is_new] =
-        known.try_emplace({findings[i].kind, origins[i]}, lines.size());
+        known.try_emplace({findings[i].kind, source_lines[i]}, lines.size());
     if (is_new) lines.push_back({i});
     Line& line = lines[at->second];
     ++line.count;
@@ -90,11 +90,11 @@ std::string finding_counts(const PrintCheck& print) {
 }
 
 std::string finding_table(const PrintCheck& print,
-                          std::span<const std::string> origins) {
+                          std::span<const std::string> source_lines) {
   const std::vector<Finding>& findings = print.findings;
   std::string text = fmt::format("print: {}\n", finding_counts(print));
   const auto out = std::back_inserter(text);
-  const std::vector<Line> lines = lines_of(findings, origins);
+  const std::vector<Line> lines = lines_of(findings, source_lines);
   if (!lines.empty()) {
     fmt::format_to(out, "{:>15} {:>11} {:>10} {:>10} {:>10}  {}\n", "",
                    "layers", "at z", "x", "y", "size");
@@ -106,8 +106,8 @@ std::string finding_table(const PrintCheck& print,
                    counted(line.count, name_of(finding.kind)),
                    layers_text(finding), finding.section_z, finding.place.x,
                    finding.place.y, size_text(finding));
-    if (!origins.empty() && !origins[line.greatest].empty()) {
-      fmt::format_to(out, ", by {}", origins[line.greatest]);
+    if (!source_lines.empty() && !source_lines[line.greatest].empty()) {
+      fmt::format_to(out, ", by {}", source_lines[line.greatest]);
     }
     text += '\n';
   }

@@ -17,9 +17,9 @@ std::string finding_counts(const slicer::PrintCheck& print);
 // The counts, a line for each finding that matters, and the peel. Each line
 // ends with '\n'.
 //
-// origins  what made each finding, one text for each; empty if not known
+// source_lines  what made each finding, one text for each; empty if not known
 std::string finding_table(const slicer::PrintCheck& print,
-                          std::span<const std::string> origins);
+                          std::span<const std::string> source_lines);
 
 nlohmann::ordered_json finding_json(const slicer::Finding& finding);
 nlohmann::ordered_json peel_json(const slicer::Peel& peel);

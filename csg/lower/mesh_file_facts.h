@@ -9,7 +9,7 @@
 
 namespace lamina::csg {
 
-// Of each body; none of a file that is no mesh or cannot be read. Equal
+// Bodies of a file; empty for one that is not a mesh or cannot be read. Equal
 // vertices are one.
 std::vector<MeshFacts> measure_mesh_file(const std::string& path,
                                          const FileAccess& access);

@@ -130,7 +130,8 @@ class PlaceList {
   explicit PlaceList(double step) : step_(step) {}
 
   // Adds what matters, ordered by kind.
-  void add(const PrintCheck& print, const std::vector<std::string>& origins) {
+  void add(const PrintCheck& print,
+           const std::vector<std::string>& source_lines) {
     const std::vector<Finding>& findings = print.findings;
     std::vector<std::size_t> listed;
     for (std::size_t i = 0; i < findings.size(); ++i) {
@@ -146,14 +147,14 @@ class PlaceList {
                        finding.last_layer, finding.layer,
                        rounded(finding.place.x, step_),
                        rounded(finding.place.y, step_), rounded(reach, 1e-3),
-                       size_text(finding), index_of(origins, i)});
+                       size_text(finding), index_of(source_lines, i)});
     }
   }
 
   // Adds the features that people read about, the thinnest first, walls first;
   // low ones are left out. Returns how many those are.
   std::size_t add(const std::vector<ThinFeature>& features, double width,
-                  const std::vector<std::string>& origins) {
+                  const std::vector<std::string>& source_lines) {
     std::vector<std::size_t> listed;
     for (std::size_t i = 0; i < features.size(); ++i) {
       if (!is_low(features[i], width)) listed.push_back(i);
@@ -168,26 +169,26 @@ class PlaceList {
            feature.layer, rounded(feature.place.x, step_),
            rounded(feature.place.y, step_), rounded(feature.width, 1e-3),
            is_edge(feature) ? "edge" : fmt::format("{:.3f} mm", feature.width),
-           index_of(origins, i)});
+           index_of(source_lines, i)});
     }
     return features.size() - listed.size();
   }
 
   Json rows() const { return rows_; }
-  Json origins() const { return origins_; }
+  Json source_lines() const { return source_lines_; }
 
  private:
-  int index_of(const std::vector<std::string>& origins, std::size_t i) {
-    if (i >= origins.size() || origins[i].empty()) return -1;
-    const auto [at, is_new] =
-        known_.try_emplace(origins[i], static_cast<int>(origins_.size()));
-    if (is_new) origins_.push_back(origins[i]);
+  int index_of(const std::vector<std::string>& source_lines, std::size_t i) {
+    if (i >= source_lines.size() || source_lines[i].empty()) return -1;
+    const auto [at, is_new] = known_.try_emplace(
+        source_lines[i], static_cast<int>(source_lines_.size()));
+    if (is_new) source_lines_.push_back(source_lines[i]);
     return at->second;
   }
 
   double step_;
   Json rows_ = Json::array();
-  std::vector<std::string> origins_;
+  std::vector<std::string> source_lines_;
   std::map<std::string_view, int> known_;
 };
 
@@ -268,7 +269,7 @@ class PageMaker {
     Json notes = Json::array();
     if (options_.print) {
       const PrintCheck& print = *options_.print;
-      places.add(print, options_.finding_origins);
+      places.add(print, options_.finding_source_lines);
       if (const std::size_t minor = print.count_minor()) {
         notes.push_back(
             fmt::format("{} too small to matter.",
@@ -283,7 +284,7 @@ class PageMaker {
       const std::vector<ThinFeature> features = find_thin_places();
       const std::size_t low =
           places.add(options_.features.empty() ? features : options_.features,
-                     options_.min_feature, options_.origins);
+                     options_.min_feature, options_.source_lines);
       if (low > 0) {
         notes.push_back(
             fmt::format("{} lower than it should be wide.",
@@ -291,7 +292,7 @@ class PageMaker {
       }
     }
     return {{"places", places.rows()},
-            {"origins", places.origins()},
+            {"origins", places.source_lines()},
             {"notes", std::move(notes)},
             {"hasPrint", options_.print.has_value()}};
   }

@@ -25,11 +25,11 @@ struct ViewerOptions {
   // Thin features that were found before, and what made each. Without them,
   // thin features are searched for in the layers.
   std::vector<ThinFeature> features;
-  std::vector<std::string> origins;
+  std::vector<std::string> source_lines;
   // What the layer graph found, and what made each finding. No value where
   // nobody looked; no text where that is not known.
   std::optional<PrintCheck> print;
-  std::vector<std::string> finding_origins;
+  std::vector<std::string> finding_source_lines;
 };
 
 // layers  ascending; at least one of them with a contour

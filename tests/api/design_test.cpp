@@ -286,7 +286,7 @@ TEST(Design, FindsThinPlacesAndTheLinesThatMadeThem) {
   EXPECT_NEAR(places[0].place.y, 0.15, 1e-6);
   EXPECT_NEAR(places[0].bottom, 0, 1e-9);
   EXPECT_NEAR(places[0].top, 2, 1e-9);
-  EXPECT_EQ(places[0].origin, "a.scad:1:1");
+  EXPECT_EQ(places[0].source_line, "a.scad:1:1");
 }
 
 TEST(Design, ChecksThePrint) {
@@ -300,7 +300,7 @@ TEST(Design, ChecksThePrint) {
     EXPECT_EQ(finding.first_layer, 7U);
     EXPECT_NEAR(finding.bottom, 3, 1e-9);
     EXPECT_NEAR(finding.area, 1, 1e-9);
-    EXPECT_EQ(finding.origin, "a.scad:2:22");
+    EXPECT_EQ(finding.source_line, "a.scad:2:22");
   }
   EXPECT_THROW(drop.check(at_heights({1})), std::runtime_error);
   EXPECT_TRUE(Design::from_text("cube(2);").check(layers_of(0.5)).empty());

@@ -75,7 +75,7 @@ LookupTables::Neighbours LookupTables::search(Pair first,
 LookupTables::Neighbours LookupTables::neighbours(const Value& table,
                                                   Pair first, double key) {
   const std::span<const Value> rows = table.as_vector();
-  // No comparison with a first key that is no number ever holds.
+  // No comparison with a first key that is not a number ever holds.
   if (rows.size() < kLongTable || std::isnan(first.key)) {
     return read_all(first, rows, key);
   }

@@ -213,7 +213,7 @@ void LayerGraph::measure_regions(const LayerOverlay& overlay) {
 }
 
 void LayerGraph::take_area(double area) {
-  constexpr double kRounding = 1e-9;  // share of an area that is no jump
+  constexpr double kRounding = 1e-9;  // share of an area that is not a jump
   if (area > peel_.greatest_area) {
     peel_.greatest_area = area;
     peel_.layer = layers_;

@@ -20,9 +20,9 @@ struct Step {
   Vec2 from = Vec2(0);  // where the contour crosses the side that it came by
 };
 
-class Tracer {
+class Stitcher {
  public:
-  Tracer(std::span<const std::uint8_t> pixels, std::size_t columns,
+  Stitcher(std::span<const std::uint8_t> pixels, std::size_t columns,
          std::size_t rows)
       : pixels_(pixels), columns_(columns), rows_(rows) {}
 
@@ -176,7 +176,7 @@ class Tracer {
 
 plane::Contours trace_pixels(std::span<const std::uint8_t> pixels,
                              std::size_t columns, std::size_t rows) {
-  return Tracer(pixels, columns, rows).trace();
+  return Stitcher(pixels, columns, rows).trace();
 }
 
 }  // namespace lamina::slicer
