@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <lamina/design.h>
 
+#include "tests/support/formulas.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -46,10 +47,7 @@ std::string fault_of(const Make& make) {
   return "nothing was thrown";
 }
 
-// Area of a regular polygon of `n` sides in a circle of radius `r`.
-double polygon_area(double r, int n) {
-  return n * r * r / 2 * std::sin(2 * std::numbers::pi / n);
-}
+using lamina::support::polygon_area;
 
 TEST(Design, GivesTheLayersOfATube) {
   const Design tube = Design::from_text(
@@ -63,7 +61,7 @@ TEST(Design, GivesTheLayersOfATube) {
     EXPECT_DOUBLE_EQ(layer.top, 0.5 * static_cast<double>(i + 1));
     EXPECT_DOUBLE_EQ(layer.section_z, 0.5 * static_cast<double>(i) + 0.25);
     EXPECT_EQ(layer.loops.size(), 2U);
-    EXPECT_NEAR(lamina::area(layer), polygon_area(5, 32) - polygon_area(3, 32),
+    EXPECT_NEAR(lamina::area(layer), polygon_area(32, 5) - polygon_area(32, 3),
                 1e-9);
   }
 }

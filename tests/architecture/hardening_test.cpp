@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/process.h"
+#include "tests/support/text.h"
 
 namespace lamina {
 namespace {
@@ -20,9 +21,7 @@ std::string read_elf(const std::string& what, const std::string& file) {
   return result.output;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 // "R", "R E", "RW " …: of the segments of one kind.
 std::vector<std::string> rights_of(const std::string& kind,

@@ -11,16 +11,14 @@
 #include "plane/loop_area.h"
 #include "slicer/formats/slc_reader.h"
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
 using support::read_file;
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 std::vector<slicer::SlcLayer> read_slc(const std::string& path) {
   slicer::SlcReader reader(path);

@@ -11,16 +11,14 @@
 
 #include "base/diagnostic.h"
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
 using compiler::make_rule;
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 // All that make would be glad to take for something else.
 const char* const kNames[] = {

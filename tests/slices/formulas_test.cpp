@@ -10,6 +10,7 @@
 
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
+#include "tests/support/formulas.h"
 
 namespace lamina {
 namespace {
@@ -27,9 +28,7 @@ Contours section(const std::string& text, double z) {
   return layers.at(0).contours;
 }
 
-double polygon_area(int facets, double radius) {
-  return facets * radius * radius * std::sin(2 * pi / facets) / 2;
-}
+using support::polygon_area;
 
 double polygon_perimeter(int facets, double radius) {
   return 2 * facets * radius * std::sin(pi / facets);

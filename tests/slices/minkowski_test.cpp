@@ -14,6 +14,7 @@
 
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
+#include "tests/support/formulas.h"
 
 namespace lamina {
 namespace {
@@ -55,9 +56,7 @@ void expect_equal(const std::string& a, const std::string& b,
   }
 }
 
-double polygon_area(int facets, double radius) {
-  return facets * radius * radius * std::sin(2 * pi / facets) / 2;
-}
+using support::polygon_area;
 
 // Of a sphere's section at height z: its vertices are rings at the middles of
 // equal angles, joined by straight sides.

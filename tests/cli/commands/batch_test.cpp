@@ -11,6 +11,7 @@
 
 #include "base/file/csv.h"
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
@@ -19,10 +20,7 @@ namespace fs = std::filesystem;
 
 using support::read_file;
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 std::size_t count_lines(const std::string& text, const std::string& begin) {
   std::istringstream lines(text);

@@ -9,15 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 // Cylinders of radius 5 and height 12.
 void add_seed(const TemporaryFolder& folder, const std::string& seed,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
@@ -14,10 +15,7 @@ namespace {
 using nlohmann::json;
 using support::read_file;
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 const char* const kFloating = "cube(10);\ntranslate([20, 0, 5]) cube(4);\n";
 

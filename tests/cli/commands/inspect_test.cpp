@@ -2,16 +2,14 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
 using nlohmann::json;
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 // `inspect` ends with 1 and says all of these.
 void expect_defects(const TemporaryFolder& folder, const std::string& file,

@@ -17,6 +17,7 @@
 
 #include "base/file/append_file.h"
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
@@ -27,9 +28,7 @@ using support::read_file;
 using support::TemporaryFolder;
 using Words = std::vector<std::string>;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 // Orders of cubes, of which those named in `bad` have no number for a size.
 class Ledgers : public testing::Test {

@@ -18,6 +18,7 @@
 #include "base/file/run_files.h"
 #include "base/file/temporary_files.h"
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
@@ -27,9 +28,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFont =
     "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf";
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 // A folder with one of each thing that a run can read.
 class Outputs : public testing::Test {

@@ -7,16 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
 using support::read_file;
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 std::string echo_of(const std::string& design) {
   const TemporaryFolder folder;

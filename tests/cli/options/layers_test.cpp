@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
@@ -17,9 +18,7 @@ using support::TemporaryFolder;
 
 constexpr const char* kBall = "translate([9, 1, 2]) sphere(3, $fn = 60);";
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 // The layers of a.scad under these options.
 json layers_of(const TemporaryFolder& folder,

@@ -5,15 +5,13 @@
 #include "base/utf8.h"
 #include "base/version.h"
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 TEST(Usage, VersionIsOneLineOnStandardOutput) {
   const TemporaryFolder folder;

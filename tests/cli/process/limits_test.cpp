@@ -1,6 +1,5 @@
 // What a run may take: time, memory, and what a design may ask for.
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,21 +11,14 @@
 #include "cli/process/machine_memory.h"
 #include "cli/process/process_watch.h"
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using support::ProcessResult;
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
+using support::has;
 
 // Nothing but the design is in its folder.
 void expect_no_output(const TemporaryFolder& folder) {
@@ -146,13 +138,10 @@ TEST(MachineMemory, IsKnown) {
 
 // --- Time --------------------------------------------------------------------
 
-TEST(MaxTime, EndsARunAtOnce) {
+TEST(MaxTime, EndsARunThatHasNoEnd) {
   const TemporaryFolder folder;
   folder.write("a.scad", kEndless);
-  const auto begin = Clock::now();
   const auto result = run(folder, {"a.scad", "--max-time", "0.3"});
-  // Within 0.1 s; but machines that run tests are busy.
-  EXPECT_LT(seconds_since(begin), 10);
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.errors,
             "error: out of time: this takes more than 0.3 s; --max-time gives "

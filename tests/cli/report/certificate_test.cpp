@@ -7,6 +7,7 @@
 #include "slicer/formats/slc_reader.h"
 #include "tests/cli/lamina.h"
 #include "tests/support/contour_checks.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
@@ -14,10 +15,7 @@ namespace {
 using nlohmann::json;
 using support::read_file;
 using support::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using support::has;
 
 json read_report(const TemporaryFolder& folder) {
   return json::parse(read_file(folder.file("r.json")));

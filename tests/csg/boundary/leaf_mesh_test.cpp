@@ -6,15 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/csg/lower/lower_fixture.h"
+#include "tests/support/formulas.h"
 
 namespace lamina::csg {
 namespace {
 
 class ExplicitMeshTest : public LowerFixture {};
 
-double polygon_area(int n) {
-  return n / 2.0 * std::sin(2 * std::numbers::pi / n);
-}
+using support::polygon_area;
 
 TEST_F(ExplicitMeshTest, CubeHasItsVolume) {
   const Node* node = b.cube({2, 3, 5}, true);

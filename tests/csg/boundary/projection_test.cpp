@@ -10,6 +10,7 @@
 
 #include "plane/region/boolean.h"
 #include "tests/csg/lower/lower_fixture.h"
+#include "tests/support/formulas.h"
 
 namespace lamina::csg {
 namespace {
@@ -39,9 +40,7 @@ double difference(const plane::Region& a, const plane::Region& b) {
   return plane::area(plane::subtract(ab)) + plane::area(plane::subtract(ba));
 }
 
-double polygon_area(int n) {
-  return 0.5 * n * std::sin(2 * std::numbers::pi / n);
-}
+using support::polygon_area;
 
 TEST_F(Projections, CutALeafWhereItCrossesThePlane) {
   const plane::Region region =

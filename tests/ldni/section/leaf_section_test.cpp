@@ -12,6 +12,7 @@
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
 #include "tests/ldni/support/scene_builder.h"
+#include "tests/support/formulas.h"
 
 namespace lamina::ldni {
 namespace {
@@ -49,9 +50,7 @@ double area_at(const csg::Leaf& leaf, const Affine& placement, double height) {
   return winding_area(block, 0);
 }
 
-double polygon_area(int facets) {
-  return facets * std::sin(2 * kPi / facets) / 2;  // circumradius 1
-}
+using support::polygon_area;
 
 const Affine kIdentity(1.0);
 
