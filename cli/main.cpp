@@ -9,15 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include "base/paths.h"
-#include "base/similar.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
@@ -39,52 +35,28 @@ int show_fault(std::string_view message, int status = kUsageFault) {
   return status;
 }
 
-// For the first word that is not an option but much like one.
-std::string hint_for(const CLI::App& app) {
-  std::vector<std::string> own;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      own.push_back("--" + name);
-    }
-  }
-  const std::vector<std::string_view> names(own.begin(), own.end());
-  for (const std::string& word : app.remaining()) {
-    if (!word.starts_with("--")) continue;
-    const std::string hint =
-        did_you_mean(std::string_view(word).substr(0, word.find('=')), names);
-    if (!hint.empty()) return "; " + hint;
-  }
-  return "";
-}
-
 // Reads the words into the options of `command`, `limits` and `access`. Returns
 // the exit status where there is nothing to run: help or the version was asked
 // for, or the usage was wrong.
 std::optional<int> read_words(Command& command, ProcessLimits& limits,
                               FileAccess& access, int argc,
                               const char* const* argv) {
-  CLI::App app("", "lamina");
-  command.add_options(app);
+  OptionList options;
+  command.add_options(options);
   FileAccess::Limits access_limits;
-  add_common_options(app, limits, access_limits);
+  add_common_options(options, limits, access_limits);
   try {
-    app.parse(argc, argv);
+    if (const auto answer =
+            options.read(argc, argv, std::string(command.help()))) {
+      print_out(*answer);
+      return kDone;
+    }
     access = make_file_access(access_limits);
     if (access.is_confined()) {
       name_files_from(access_limits.root, access.canonical(access_limits.root));
     }
     command.check();
     access.report_to(std::make_shared<RunFiles>());
-  } catch (const CLI::CallForHelp&) {
-    print_out(command.help());
-    return kDone;
-  } catch (const CLI::CallForVersion& version) {
-    print_out(fmt::format("{}\n", version.what()));
-    return kDone;
-  } catch (const CLI::ExtrasError& error) {
-    return show_fault(error.what() + hint_for(app));
-  } catch (const CLI::ParseError& error) {
-    return show_fault(error.what());
   } catch (const RequestError& error) {
     return show_fault(error.what());
   }

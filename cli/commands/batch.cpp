@@ -66,16 +66,15 @@ constexpr std::array<std::string_view, 12> kNeutralOptions = {
 
 // What is asked of all pieces, as text: all options that were given but the
 // neutral ones, so that one that is new counts by itself.
-std::string given_options(const CLI::App& app) {
+std::string given_options(const OptionList& options) {
   std::string text;
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name();
-    const bool is_neutral =
-        std::find(kNeutralOptions.begin(), kNeutralOptions.end(), name) !=
-        kNeutralOptions.end();
-    if (option->count() == 0 || is_neutral) continue;
-    text += name;
-    for (const std::string& word : option->results()) text += "\n " + word;
+  for (const GivenOption& option : options.given()) {
+    if (std::ranges::find(kNeutralOptions, option.name) !=
+        kNeutralOptions.end()) {
+      continue;
+    }
+    text += option.name;
+    for (const std::string& word : option.words) text += "\n " + word;
     text += '\n';
   }
   return text;
@@ -97,21 +96,23 @@ class BatchCommand : public Command {
  public:
   std::string_view help() const override { return kBatchHelp; }
 
-  void add_options(CLI::App& app) override {
-    app.add_option("design", table_.request.design.path)->required();
-    add_name(app, "--table", "file", table_.table)->required();
-    add_name(app, "-o", "pattern", table_.request.output.path)->required();
-    make_repeatable(app.add_option("--skip", skipped_)->type_name("column"));
-    add_text(app, "--shard", "share", [this](const std::string& text) {
+  void add_options(OptionList& options) override {
+    options.word("design", table_.request.design.path).required();
+    options.name("--table", "file", table_.table).required();
+    options.name("-o", "pattern", table_.request.output.path).required();
+    options.texts("--skip", "column", [this](const std::string& column) {
+      table_.skipped.insert(column);
+    });
+    options.text("--shard", "share", [this](const std::string& text) {
       table_.share = parse_share(text);
     });
-    CLI::Option* ledger = add_name(app, "--ledger", "file", ledger_.path);
-    app.add_flag("--resume", ledger_.resumes)->needs(ledger);
-    add_name(app, "--collect", "ledger", ledgers_)->excludes(ledger);
-    add_output_options(app, table_.request, output_options_);
-    add_design_options(app, table_.request, is_quiet_);
-    add_slicing_options(app, table_.request);
-    app_ = &app;
+    const Option ledger = options.name("--ledger", "file", ledger_.path);
+    options.flag("--resume", ledger_.resumes).needs(ledger);
+    options.names("--collect", "ledger", ledgers_).excludes(ledger);
+    add_output_options(options, table_.request, output_options_);
+    add_design_options(options, table_.request, is_quiet_);
+    add_slicing_options(options, table_.request);
+    options_ = &options;
   }
 
   void check() override {
@@ -131,9 +132,8 @@ class BatchCommand : public Command {
     choose_format(table_.request, output, table_.request.output.path);
     table_.request.output.is_strict =
         table_.request.output.is_strict.value_or(true);
-    table_.skipped.insert(skipped_.begin(), skipped_.end());
     refuse_if(ledger_.path == "-", "--ledger takes a file, not '-'");
-    ledger_.asked = given_options(*app_);
+    ledger_.asked = given_options(*options_);
   }
 
   int run(const Context& context) override {
@@ -174,10 +174,9 @@ class BatchCommand : public Command {
   }
 
   TableOptions table_;
-  std::vector<std::string> skipped_;
   LedgerOptions ledger_;
-  std::vector<std::string> ledgers_;  // to collect
-  const CLI::App* app_ = nullptr;     // until check() is done
+  std::vector<std::string> ledgers_;     // to collect
+  const OptionList* options_ = nullptr;  // until check() is done
   OutputOptions output_options_;
   bool is_quiet_ = false;
 };

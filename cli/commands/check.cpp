@@ -56,21 +56,16 @@ class CheckCommand : public Command {
  public:
   std::string_view help() const override { return kCheckHelp; }
 
-  void add_options(CLI::App& app) override {
-    app.add_option("file", request_.design.path)->required();
-    app.add_flag("--json", is_json_);
-    make_repeatable(app.add_option_function<std::vector<std::string>>(
-                           "--allow",
-                           [this](const std::vector<std::string>& words) {
-                             for (const auto& word : words) allow(word);
-                           })
-                        ->type_name("{islands,loose-parts,overhangs,"
-                                    "suction-cups,resin-traps}"));
-    add_number(app, "--self-supporting", "length",
-               request_.job.self_supporting);
-    add_design_options(app, request_, is_quiet_);
-    add_slicing_options(app, request_);
-    note_design_option(app, request_);
+  void add_options(OptionList& options) override {
+    options.word("file", request_.design.path).required();
+    options.flag("--json", is_json_);
+    options.texts("--allow",
+                  "{islands,loose-parts,overhangs,suction-cups,resin-traps}",
+                  [this](const std::string& word) { allow(word); });
+    options.number("--self-supporting", "length", request_.job.self_supporting);
+    add_design_options(options, request_, is_quiet_);
+    add_slicing_options(options, request_);
+    note_design_option(options, request_);
   }
 
   void check() override {

@@ -6,8 +6,7 @@
 #include <memory>
 #include <string_view>
 
-#include <CLI/App.hpp>
-
+#include "cli/options/option_list.h"
 #include "cli/process/context.h"
 
 namespace lamina::cli {
@@ -18,9 +17,9 @@ class Command {
 
   virtual std::string_view help() const = 0;
 
-  // Binds options and positional words of `app` to this command, which
-  // outlives it. Reading them may throw CLI::ParseError.
-  virtual void add_options(CLI::App& app) = 0;
+  // Binds options and positional words to this command, which outlives the
+  // list.
+  virtual void add_options(OptionList& options) = 0;
 
   // Called when all words have been read: completes the options and throws
   // RequestError where they do not go together.

@@ -73,31 +73,31 @@ class CompareCommand : public Command {
  public:
   std::string_view help() const override { return kCompareHelp; }
 
-  void add_options(CLI::App& app) override {
-    app.add_option("A", a_)->required();
-    app.add_option("B", b_);
-    add_design_options(app, request_, is_quiet_);
-    add_slicing_options(app, request_);
-    note_design_option(app, request_);
+  void add_options(OptionList& options) override {
+    options.word("A", a_).required();
+    options.word("B", b_);
+    add_design_options(options, request_, is_quiet_);
+    add_slicing_options(options, request_);
+    note_design_option(options, request_);
     // The words are the comparison's here.
-    app.remove_option(app.get_option("--tolerance"));
+    options.remove("--tolerance");
     request_.job.tolerance = 0;
-    add_text(app, "--tolerance", "length", [this](const std::string& text) {
+    options.text("--tolerance", "length", [this](const std::string& text) {
       tolerance_ = require_within(kTolerances, text);
     });
-    app.add_flag("--align", aligns_);
-    app.add_flag("--all", lists_all_);
-    add_name(app, "--png", "file", picture_);
-    app.add_option("--layer-number", layer_number_)
-        ->check(CLI::PositiveNumber)
-        ->type_name("number")
-        ->needs("--png");
-    add_name(app, "--report", "file", report_);
-    add_choice(app, "--against", {"openscad"},
-               [this](const std::string&) { is_against_openscad_ = true; });
-    add_text(app, "--time-limit", "seconds", [this](const std::string& text) {
-      time_limit_ = require_within(kTimeLimits, text);
-    })->needs("--against");
+    options.flag("--align", aligns_);
+    options.flag("--all", lists_all_);
+    options.name("--png", "file", picture_);
+    options.layer_number(layer_number_).needs("--png");
+    options.name("--report", "file", report_);
+    options.choice("--against", {"openscad"},
+                   [this](const std::string&) { is_against_openscad_ = true; });
+    options
+        .text("--time-limit", "seconds",
+              [this](const std::string& text) {
+                time_limit_ = require_within(kTimeLimits, text);
+              })
+        .needs("--against");
   }
 
   void check() override {

@@ -39,17 +39,16 @@ class InspectCommand : public Command {
  public:
   std::string_view help() const override { return kInspectHelp; }
 
-  void add_options(CLI::App& app) override {
-    app.add_option("file", request_.design.path)->required();
-    app.add_flag("--all", lists_all_layers_);
-    app.add_flag("--json", is_json_);
+  void add_options(OptionList& options) override {
+    options.word("file", request_.design.path).required();
+    options.flag("--all", lists_all_layers_);
+    options.flag("--json", is_json_);
     // In the layers as they are written, not by the slicer on its way.
-    add_number(app, "--min-feature", "length", min_feature_);
-    add_design_options(app, request_, is_quiet_);
-    add_slicing_options(app, request_);
-    note_design_option(app, request_);
-    add_layer_range(app, request_.job.written);
-    app.get_option("--layers")->group(kDesignGroup);
+    options.number("--min-feature", "length", min_feature_);
+    add_design_options(options, request_, is_quiet_);
+    add_slicing_options(options, request_);
+    note_design_option(options, request_);
+    options.layer_range(request_.job.written).in_group(kDesignGroup);
   }
 
   void check() override {

@@ -43,7 +43,7 @@ std::string known(double value, const std::string& text) {
 class PrintersCommand : public Command {
  public:
   std::string_view help() const override { return kPrintersHelp; }
-  void add_options(CLI::App& /*app*/) override {}
+  void add_options(OptionList& /*options*/) override {}
   int run(const Context& /*context*/) override {
     std::string text =
         fmt::format("{:<26} {:>26} {:>13} {:>15} {:>7}  {}\n", "printer",
@@ -70,7 +70,7 @@ class PrintersCommand : public Command {
 class MaterialsCommand : public Command {
  public:
   std::string_view help() const override { return kMaterialsHelp; }
-  void add_options(CLI::App& /*app*/) override {}
+  void add_options(OptionList& /*options*/) override {}
   int run(const Context& /*context*/) override {
     std::string text =
         fmt::format("{:<30} {:>7} {:>11} {:>8}  {:<12} {}\n", "material",

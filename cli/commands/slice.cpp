@@ -16,7 +16,6 @@
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
 #include "cli/options/design_options.h"
-#include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
@@ -188,23 +187,23 @@ class SliceCommand : public Command {
  public:
   std::string_view help() const override { return kHelp; }
 
-  void add_options(CLI::App& app) override {
-    app.add_option("design", designs_);
-    add_name(app, "-o", "file", request_.output.path);
-    add_name(app, "-d", "file", request_.output.dependencies);
-    app.add_flag("--watch", watches_);
+  void add_options(OptionList& options) override {
+    options.words("design", designs_);
+    options.name("-o", "file", request_.output.path);
+    options.name("-d", "file", request_.output.dependencies);
+    options.flag("--watch", watches_);
     const auto& stages = slicer::kDumpStages;
-    add_choice(app, "--dump", {stages.begin(), stages.end()},
-               [this, &stages](const std::string& stage) {
-                 request_.output.dump = static_cast<slicer::DumpStage>(
-                     std::ranges::find(stages, stage) - stages.begin());
-               });
-    add_text(app, "--at", "height", [this](const std::string& text) {
+    options.choice("--dump", {stages.begin(), stages.end()},
+                   [this, &stages](const std::string& stage) {
+                     request_.output.dump = static_cast<slicer::DumpStage>(
+                         std::ranges::find(stages, stage) - stages.begin());
+                   });
+    options.text("--at", "height", [this](const std::string& text) {
       request_.output.dump_height = require_within("--at", text);
     });
-    add_output_options(app, request_, output_);
-    add_design_options(app, request_, is_quiet_);
-    add_slicing_options(app, request_);
+    add_output_options(options, request_, output_);
+    add_design_options(options, request_, is_quiet_);
+    add_slicing_options(options, request_);
   }
 
   void check() override {

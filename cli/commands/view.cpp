@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/App.hpp>
 #include <fmt/format.h>
 
 #include "base/file/output_file.h"
@@ -58,36 +57,36 @@ std::vector<double> parse_size(const std::string& text) {
 // The options of openscad's camera. They mean what they mean there.
 class CameraOptions {
  public:
-  // Outlives `app`.
-  void add_to(CLI::App& app) {
-    add_text(app, "--camera", "numbers", [this](const std::string& text) {
+  // Outlives the list.
+  void add_to(OptionList& options) {
+    options.text("--camera", "numbers", [this](const std::string& text) {
       is_given_ = true;
       camera_ = parse_camera(text);
     });
     const auto add_flag = [&](const std::string& name, bool& flag) {
-      app.add_flag_callback(name, [this, &flag] { is_given_ = flag = true; });
+      options.flag(name, [this, &flag] { is_given_ = flag = true; });
     };
     add_flag("--viewall", views_all_);
     add_flag("--autocenter", centers_);
-    add_choice(app, "--projection",
-               {"p", "perspective", "o", "ortho", "orthogonal"},
-               [this](const std::string& word) {
-                 is_given_ = true;
-                 projection_ = word.front() == 'o'
-                                   ? slicer::Camera::Projection::kOrthogonal
-                                   : slicer::Camera::Projection::kPerspective;
-               });
-    add_text(app, "--imgsize", "width,height", [this](const std::string& text) {
+    options.choice(
+        "--projection", {"p", "perspective", "o", "ortho", "orthogonal"},
+        [this](const std::string& word) {
+          is_given_ = true;
+          projection_ = word.front() == 'o'
+                            ? slicer::Camera::Projection::kOrthogonal
+                            : slicer::Camera::Projection::kPerspective;
+        });
+    options.text("--imgsize", "width,height", [this](const std::string& text) {
       is_given_ = true;
       const std::vector<double> size = parse_size(text);
       options_.width = static_cast<unsigned>(size[0]);
       options_.height = static_cast<unsigned>(size[1]);
     });
-    add_choice(app, "--colorscheme", slicer::color_scheme_names(),
-               [this](const std::string& name) {
-                 is_given_ = true;
-                 options_.colors = slicer::find_color_scheme(name);
-               });
+    options.choice("--colorscheme", slicer::color_scheme_names(),
+                   [this](const std::string& name) {
+                     is_given_ = true;
+                     options_.colors = slicer::find_color_scheme(name);
+                   });
   }
 
   // Whether any of them was given.
@@ -270,31 +269,28 @@ class ViewCommand : public Command {
  public:
   std::string_view help() const override { return kViewHelp; }
 
-  void add_options(CLI::App& app) override {
-    app.add_option("file", request_.design.path)->required();
-    add_name(app, "-o", "file", request_.output.path)->required();
-    add_choice(
-        app, "--style", {"sheet", "stack"}, [this](const std::string& style) {
+  void add_options(OptionList& options) override {
+    options.word("file", request_.design.path).required();
+    options.name("-o", "file", request_.output.path).required();
+    options.choice(
+        "--style", {"sheet", "stack"}, [this](const std::string& style) {
           options_.style = style == "stack" ? Style::kStack : Style::kSheet;
         });
-    app.add_option("--layers", options_.layer_count)
-        ->check(CLI::Range(1U, 400U))
-        ->type_name("number");
-    auto* const number = app.add_option("--layer-number", options_.layer_number)
-                             ->check(CLI::PositiveNumber)
-                             ->type_name("number");
-    add_text(app, "--at", "height", [this](const std::string& text) {
-      options_.layer_height = require_number("--at", text);
-    })->excludes(number);
-    add_number(app, "--min-feature", "length", options_.layer.min_feature);
-    camera_.add_to(app);
-    app.add_option("--width", options_.width)
-        ->check(CLI::Range(200U, 8000U))
-        ->type_name("number");
-    add_machine_options(app, request_);
-    add_design_options(app, request_, is_quiet_);
-    add_slicing_options(app, request_);
-    note_design_option(app, request_);
+    options.whole("--layers", options_.layer_count, 1, 400);
+    const Option number = options.layer_number(options_.layer_number);
+    options
+        .text("--at", "height",
+              [this](const std::string& text) {
+                options_.layer_height = require_number("--at", text);
+              })
+        .excludes(number);
+    options.number("--min-feature", "length", options_.layer.min_feature);
+    camera_.add_to(options);
+    options.whole("--width", options_.width, 200, 8000);
+    add_machine_options(options, request_);
+    add_design_options(options, request_, is_quiet_);
+    add_slicing_options(options, request_);
+    note_design_option(options, request_);
   }
 
   void check() override {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "base/version.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 
@@ -26,11 +25,11 @@ double bytes_of_unit(char name) {
   return std::pow(1024, static_cast<double>(place / 2 + 1));
 }
 
-void add_process_limits(CLI::App& app, ProcessLimits& limits) {
-  add_text(app, "--max-memory", "size", [&limits](const std::string& text) {
+void add_process_limits(OptionList& options, ProcessLimits& limits) {
+  options.text("--max-memory", "size", [&limits](const std::string& text) {
     limits.memory = parse_memory_limit(text);
   });
-  add_text(app, "--max-time", "seconds", [&limits](const std::string& text) {
+  options.text("--max-time", "seconds", [&limits](const std::string& text) {
     limits.seconds = require_number("--max-time", text);
     require(limits.seconds > 0 && limits.seconds <= kGreatestSeconds,
             "--max-time", "must be more than 0 and at most {:g} s, not {}",
@@ -38,28 +37,26 @@ void add_process_limits(CLI::App& app, ProcessLimits& limits) {
   });
 }
 
-void add_access_limits(CLI::App& app, FileAccess::Limits& access) {
-  CLI::Option* const root = add_name(app, "--root", "folder", access.root);
-  make_repeatable(
-      add_name(app, "--allow-read", "folder", access.readable)->needs(root));
-  app.add_flag("--no-import", access.refuses_data);
+void add_access_limits(OptionList& options, FileAccess::Limits& access) {
+  const Option root = options.name("--root", "folder", access.root);
+  options.names("--allow-read", "folder", access.readable)
+      .repeatable()
+      .needs(root);
+  options.flag("--no-import", access.refuses_data);
   // --watch looks at folders for as long as it runs, and --against runs a
   // program that knows no root.
   for (const char* name : {"--watch", "--against"}) {
-    if (CLI::Option* const option = app.get_option_no_throw(name)) {
-      root->excludes(option);
-    }
+    if (const auto option = options.find(name)) root.excludes(*option);
   }
 }
 
 }  // namespace
 
-void add_common_options(CLI::App& app, ProcessLimits& limits,
+void add_common_options(OptionList& options, ProcessLimits& limits,
                         FileAccess::Limits& access) {
-  app.set_help_flag("-h,--help");
-  app.set_version_flag("-v,--version", fmt::format("lamina {}", version()));
-  add_process_limits(app, limits);
-  add_access_limits(app, access);
+  options.help_and_version();
+  add_process_limits(options, limits);
+  add_access_limits(options, access);
 }
 
 MemoryLimit parse_memory_limit(const std::string& text) {

@@ -12,146 +12,129 @@
 namespace lamina::cli {
 namespace {
 
-// The words of a list, as CLI11 takes them.
+// The words of a list, as options take them.
 template <typename Words>
 std::vector<std::string> texts(const Words& words) {
   return {words.begin(), words.end()};
 }
 
-// Options that are added while it lives are of that group.
-class GroupOfDesigns {
- public:
-  explicit GroupOfDesigns(CLI::App& app)
-      : defaults_(*app.option_defaults()), group_(defaults_.get_group()) {
-    defaults_.group(kDesignGroup);
-  }
-  ~GroupOfDesigns() { defaults_.group(group_); }
-  GroupOfDesigns(const GroupOfDesigns&) = delete;
-  GroupOfDesigns& operator=(const GroupOfDesigns&) = delete;
-
- private:
-  CLI::OptionDefaults& defaults_;
-  const std::string group_;
-};
-
 }  // namespace
 
-void add_design_options(CLI::App& app, compiler::Request& request,
+void add_design_options(OptionList& options, compiler::Request& request,
                         bool& is_quiet) {
-  add_count(app, "--max-depth", request.design.max_depth);
-  add_count(app, "--max-leaves", request.design.max_leaves);
-  app.add_flag("--hardwarnings", request.design.has_hard_warnings);
-  app.add_flag("-q,--quiet", is_quiet);
+  options.count("--max-depth", request.design.max_depth);
+  options.count("--max-leaves", request.design.max_leaves);
+  options.flag("--hardwarnings", request.design.has_hard_warnings);
+  options.flag("-q,--quiet", is_quiet);
 
-  const GroupOfDesigns group(app);
-  const auto define = [&request](const std::vector<std::string>& definitions) {
-    for (const std::string& definition : definitions) {
-      request.design.definitions += definition + ";\n";
-    }
-  };
-  make_repeatable(
-      app.add_option_function<std::vector<std::string>>("-D", define)
-          ->type_name("NAME=VALUE"));
-  CLI::Option* set = app.add_option("-P", request.design.parameter_set);
-  CLI::Option* file =
-      add_name(app, "-p", "file", request.design.parameter_file);
-  set->type_name("set")->needs(file);
-  file->needs(set);
-  add_switch(app, "--check-parameters", request.design.checks_parameters);
-  add_switch(app, "--check-parameter-ranges",
-             request.design.checks_parameter_ranges);
-  app.add_flag("--render", request.design.render);
-  app.add_flag("--preview", request.design.preview);
-  app.add_option("--seed", request.design.seed)->type_name("number");
-  add_choice(app, "--language", texts(compiler::kLanguageWords),
-             [&](const std::string& word) { request.design.language = word; });
+  options.begin_group(kDesignGroup);
+  options.texts("-D", "NAME=VALUE", [&request](const std::string& definition) {
+    request.design.definitions += definition + ";\n";
+  });
+  const Option set = options.text("-P", "set", [&](const std::string& name) {
+    request.design.parameter_set = name;
+  });
+  const Option file = options.name("-p", "file", request.design.parameter_file);
+  set.needs(file);
+  file.needs(set);
+  options.boolean("--check-parameters", request.design.checks_parameters);
+  options.boolean("--check-parameter-ranges",
+                  request.design.checks_parameter_ranges);
+  options.flag("--render", request.design.render);
+  options.flag("--preview", request.design.preview);
+  options.integer("--seed", request.design.seed);
+  options.choice(
+      "--language", texts(compiler::kLanguageWords),
+      [&](const std::string& word) { request.design.language = word; });
+  options.end_group();
 }
 
-void add_slicing_options(CLI::App& app, compiler::Request& request) {
+void add_slicing_options(OptionList& options, compiler::Request& request) {
   slicer::Settings& settings = request.job;
-  add_count(app, "--threads", settings.threads);
+  options.count("--threads", settings.threads);
 
-  const GroupOfDesigns group(app);
-  add_number(app, "--layer", "length", settings.layer_thickness);
-  add_number(app, "--adaptive", "length", settings.cusp);
-  add_number(app, "--max-layer", "length", settings.greatest_thickness);
-  add_text(app, "--heights", "list", [&](const std::string& text) {
+  options.begin_group(kDesignGroup);
+  options.number("--layer", "length", settings.layer_thickness);
+  options.number("--adaptive", "length", settings.cusp);
+  options.number("--max-layer", "length", settings.greatest_thickness);
+  options.text("--heights", "list", [&](const std::string& text) {
     settings.heights = require_numbers("--heights", text);
   });
-  add_number(app, "--chordal-error", "length", request.geometry.chordal_error);
-  add_number(app, "--decimate", "length", request.geometry.decimation);
+  options.number("--chordal-error", "length", request.geometry.chordal_error);
+  options.number("--decimate", "length", request.geometry.decimation);
   // Two names of one thing: what simplification is for, and what it promises.
-  add_number(app, "--tolerance,--simplify", "length", settings.tolerance);
-  add_number(app, "--compensate", "length", settings.compensation);
-  add_text(app, "--scale", "factor", [&](const std::string& text) {
+  options.number("--tolerance,--simplify", "length", settings.tolerance);
+  options.number("--compensate", "length", settings.compensation);
+  options.text("--scale", "factor", [&](const std::string& text) {
     require(
         !text.ends_with('%'), "--scale",
         "a factor was expected, such as 1.02 for a print 2% larger, not '{}'",
         text);
     request.geometry.scale = require_within("--scale", text);
   });
-  add_text(app, "--ray", "length", [&](const std::string& text) {
+  options.text("--ray", "length", [&](const std::string& text) {
     settings.ray_pitch = text == "auto" ? 0 : require_within("--ray", text);
   });
-  add_choice(app, "--axis", texts(compiler::kAxisWords),
-             [&](const std::string& axis) { request.geometry.axis = axis; });
-  app.add_flag("--place-on-bed", request.geometry.is_placed_on_bed);
-  add_choice(
-      app, "--contour", {"faithful", "paper"}, [&](const std::string& mode) {
+  options.choice(
+      "--axis", texts(compiler::kAxisWords),
+      [&](const std::string& axis) { request.geometry.axis = axis; });
+  options.flag("--place-on-bed", request.geometry.is_placed_on_bed);
+  options.choice(
+      "--contour", {"faithful", "paper"}, [&](const std::string& mode) {
         settings.contour = mode == "paper" ? slicer::ContourMode::kPaper
                                            : slicer::ContourMode::kFaithful;
       });
-  add_choice(app, "--boxes", {"local", "global"}, [&](const std::string& mode) {
+  options.choice("--boxes", {"local", "global"}, [&](const std::string& mode) {
     settings.paper.boxes =
         mode == "global" ? ldni::BoxMode::kGlobal : ldni::BoxMode::kLocal;
   });
   // gl-peeling is another name of gl, from when gl was a method of its own.
-  add_choice(app, "--sampler", {"scanline", "gl", "gl-peeling"},
-             [&](const std::string& kind) {
-               settings.paper.sampler = kind == "scanline"
-                                            ? ldni::SamplerKind::kScanline
-                                            : ldni::SamplerKind::kGl;
-             });
+  options.choice("--sampler", {"scanline", "gl", "gl-peeling"},
+                 [&](const std::string& kind) {
+                   settings.paper.sampler = kind == "scanline"
+                                                ? ldni::SamplerKind::kScanline
+                                                : ldni::SamplerKind::kGl;
+                 });
+  options.end_group();
 }
 
-void note_design_option(CLI::App& app, compiler::Request& request) {
-  app.parse_complete_callback([&app, &request] {
-    for (const CLI::Option* const option : app.get_options()) {
-      if (option->get_group() != kDesignGroup || option->count() == 0) continue;
-      request.design.given_option = option->get_name();
+void note_design_option(OptionList& options, compiler::Request& request) {
+  options.on_read([&options, &request] {
+    for (const GivenOption& option : options.given()) {
+      if (option.group != kDesignGroup) continue;
+      request.design.given_option = option.name;
       return;
     }
   });
 }
 
-void add_machine_options(CLI::App& app, compiler::Request& request) {
-  add_name(app, "--printer", "printer", request.output.printer);
-  add_name(app, "--material", "material", request.output.material);
+void add_machine_options(OptionList& options, compiler::Request& request) {
+  options.name("--printer", "printer", request.output.printer);
+  options.name("--material", "material", request.output.material);
 }
 
-void add_output_options(CLI::App& app, compiler::Request& request,
-                        OutputOptions& options) {
-  add_name(app, "--export-format", "format", options.export_format);
-  add_choice(app, "--cli", {"binary", "ascii"},
-             [&request](const std::string& word) {
-               request.output.cli_encoding = word == "ascii"
-                                                 ? slicer::CliEncoding::kAscii
-                                                 : slicer::CliEncoding::kBinary;
-             });
-  CLI::Option* strict = app.add_flag_callback(
-      "--strict", [&request] { request.output.is_strict = true; });
-  app.add_flag_callback("--no-strict",
-                        [&request] { request.output.is_strict = false; })
-      ->excludes(strict);
-  add_machine_options(app, request);
-  add_choice(app, "--mirror", {"x", "y", "xy"},
-             [&request](const std::string& axes) {
-               request.output.mirrors_x = axes != "y";
-               request.output.mirrors_y = axes != "x";
-             });
-  add_name(app, "--report", "file", options.report);
-  add_number(app, "--min-feature", "length", request.job.min_feature);
-  add_layer_range(app, request.job.written);
+void add_output_options(OptionList& options, compiler::Request& request,
+                        OutputOptions& output) {
+  options.name("--export-format", "format", output.export_format);
+  options.choice(
+      "--cli", {"binary", "ascii"}, [&request](const std::string& word) {
+        request.output.cli_encoding = word == "ascii"
+                                          ? slicer::CliEncoding::kAscii
+                                          : slicer::CliEncoding::kBinary;
+      });
+  const Option strict =
+      options.flag("--strict", [&request] { request.output.is_strict = true; });
+  options.flag("--no-strict", [&request] { request.output.is_strict = false; })
+      .excludes(strict);
+  add_machine_options(options, request);
+  options.choice("--mirror", {"x", "y", "xy"},
+                 [&request](const std::string& axes) {
+                   request.output.mirrors_x = axes != "y";
+                   request.output.mirrors_y = axes != "x";
+                 });
+  options.name("--report", "file", output.report);
+  options.number("--min-feature", "length", request.job.min_feature);
+  options.layer_range(request.job.written);
 }
 
 void choose_format(compiler::Request& request, const OutputOptions& options,

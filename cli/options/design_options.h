@@ -3,41 +3,40 @@
 
 #include <string>
 
-#include <CLI/App.hpp>
-
+#include "cli/options/option_list.h"
 #include "compiler/request.h"
 
 namespace lamina::cli {
 
 // Adds -D, -p, -P, the other options of the language, and -q. `request` and
-// `is_quiet` outlive `app`.
-void add_design_options(CLI::App& app, compiler::Request& request,
+// `is_quiet` outlive the list.
+void add_design_options(OptionList& options, compiler::Request& request,
                         bool& is_quiet);
 
 // Adds the options that --help calls Slicing.
-void add_slicing_options(CLI::App& app, compiler::Request& request);
+void add_slicing_options(OptionList& options, compiler::Request& request);
 
-// The group of CLI11 of those among them that change layers: files of layers
+// The group of those among them that change layers: files of layers
 // have no use for these. (--threads and limits of a run harm nobody.)
 inline constexpr const char* kDesignGroup = "Design";
 
 // Notes in the request the first option of that group that was given. `request`
-// outlives `app`.
-void note_design_option(CLI::App& app, compiler::Request& request);
+// outlives `options`.
+void note_design_option(OptionList& options, compiler::Request& request);
 
 struct OutputOptions {
   std::string export_format;  // empty: the output's name says it
   std::string report;         // path; empty: none
 };
 
-// Adds --printer and --material. `request` outlives `app`.
-void add_machine_options(CLI::App& app, compiler::Request& request);
+// Adds --printer and --material. `request` outlives `options`.
+void add_machine_options(OptionList& options, compiler::Request& request);
 
 // Adds the options that say what is written and how: those that --help calls
 // Output, save -o, and --report, --layers and --min-feature. `request` and
-// `options` outlive `app`.
-void add_output_options(CLI::App& app, compiler::Request& request,
-                        OutputOptions& options);
+// `output` outlive the list.
+void add_output_options(OptionList& options, compiler::Request& request,
+                        OutputOptions& output);
 
 // Chooses the format by --export-format or, where that is empty, by the name
 // of the output, and checks what else is asked for against it. Throws

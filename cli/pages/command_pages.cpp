@@ -5,10 +5,6 @@
 #include <memory>
 #include <sstream>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
 #include "slicer/formats/output_format.h"
@@ -55,11 +51,10 @@ bool read_entry(const std::vector<HelpBlock>& help, OptionPage& page) {
   return false;
 }
 
-// The words of CLI::IsMember, "{a,b}" at the end of the type's name; those that
-// the help names, "auto|MM"; printers, materials and formats.
-std::vector<std::string> words_of(const CLI::Option& option,
+// The words of a choice, "{a,b}" at the end of what its value is called; those
+// that the help names, "auto|MM"; printers, materials and formats.
+std::vector<std::string> words_of(const std::string& type,
                                   const std::string& value) {
-  const std::string type = option.get_type_name();
   if (type == "printer") {
     std::vector<std::string> names;
     for (const slicer::Printer& printer : slicer::known_printers()) {
@@ -89,18 +84,17 @@ std::vector<std::string> words_of(const CLI::Option& option,
   return words;
 }
 
-OptionPage option_page(const CLI::Option& option,
+OptionPage option_page(const OptionFacts& option,
                        const std::vector<HelpBlock>& help,
                        const std::vector<HelpBlock>& main_help) {
   OptionPage page;
-  page.names = split(option.get_name(false, true), ',');
+  page.names = option.names;
   if (!read_entry(help, page)) read_entry(main_help, page);
-  page.has_value = option.get_expected_max() > 0;
+  page.has_value = option.has_value;
   if (!page.has_value) return page;
-  page.may_repeat =
-      option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
-  page.words = words_of(option, page.value);
-  page.is_file = option.get_type_name() == "file";
+  page.may_repeat = option.may_repeat;
+  page.words = words_of(option.value, page.value);
+  page.is_file = option.value == "file";
   return page;
 }
 
@@ -143,18 +137,17 @@ void read_usage(const std::vector<HelpBlock>& main_help, CommandPage& page) {
 
 CommandPage command_page(const std::string& name, Command& command,
                          const std::vector<HelpBlock>& main_help) {
-  CLI::App app("", "lamina");
-  command.add_options(app);
+  OptionList options;
+  command.add_options(options);
   ProcessLimits limits;
   FileAccess::Limits access;
-  add_common_options(app, limits, access);
+  add_common_options(options, limits, access);
   CommandPage page;
   page.name = name;
   page.help = read_help(command.help());
   read_usage(main_help, page);
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_positional()) continue;
-    page.options.push_back(option_page(*option, page.help, main_help));
+  for (const OptionFacts& option : options.facts()) {
+    page.options.push_back(option_page(option, page.help, main_help));
   }
   return page;
 }

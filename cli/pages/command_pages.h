@@ -1,5 +1,5 @@
 #pragma once
-// Every command with its options: what CLI11 knows of them joined with what the
+// Every command with its options: what the reader of options knows of them joined with what the
 // help says; and the pages made from that: the manual, and the completions of
 // the three usual shells.
 

@@ -57,7 +57,7 @@ TEST(MemoryLimit, IsNothingElse) {
   for (const char* const text :
        {"", "G", "%", "0", "-1G", "0%", "101%", "nan", "inf", "1e30", "2 G",
         "2GB", "2T", "G2", "1G%", "0x10"}) {
-    EXPECT_THROW(parse_memory_limit(text), CLI::ValidationError) << text;
+    EXPECT_THROW(parse_memory_limit(text), RequestError) << text;
   }
 }
 

@@ -1,0 +1,259 @@
+#include "cli/options/option_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include "base/similar.h"
+#include "base/version.h"
+#include "cli/options/option_values.h"
+
+namespace lamina::cli {
+namespace {
+
+Option refuse_empty(CLI::Option* option, const std::string& what) {
+  option->type_name(what)->check([what](const std::string& text) {
+    return text.empty() ? fmt::format("a {} was expected, not ''", what) : "";
+  });
+  return Option(*option);
+}
+
+// For the first word that is not an option but much like one.
+std::string hint_for(const CLI::App& app) {
+  std::vector<std::string> own;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      own.push_back("--" + name);
+    }
+  }
+  const std::vector<std::string_view> names(own.begin(), own.end());
+  for (const std::string& word : app.remaining()) {
+    if (!word.starts_with("--")) continue;
+    const std::string hint =
+        did_you_mean(std::string_view(word).substr(0, word.find('=')), names);
+    if (!hint.empty()) return "; " + hint;
+  }
+  return "";
+}
+
+}  // namespace
+
+const Option& Option::required() const {
+  option_->required();
+  return *this;
+}
+
+const Option& Option::repeatable() const {
+  option_->expected(1)->allow_extra_args(false)->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeAll);
+  return *this;
+}
+
+const Option& Option::needs(const Option& other) const {
+  option_->needs(other.option_);
+  return *this;
+}
+
+const Option& Option::needs(const std::string& name) const {
+  option_->needs(name);
+  return *this;
+}
+
+const Option& Option::excludes(const Option& other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+const Option& Option::in_group(const std::string& group) const {
+  option_->group(group);
+  return *this;
+}
+
+OptionList::OptionList() : app_(std::make_unique<CLI::App>("", "lamina")) {}
+
+OptionList::~OptionList() = default;
+
+Option OptionList::word(const std::string& name, std::string& target) {
+  return Option(*app_->add_option(name, target));
+}
+
+Option OptionList::words(const std::string& name,
+                         std::vector<std::string>& targets) {
+  return Option(*app_->add_option(name, targets));
+}
+
+Option OptionList::flag(const std::string& name, bool& target) {
+  return Option(*app_->add_flag(name, target));
+}
+
+Option OptionList::flag(const std::string& name, std::string& target) {
+  return Option(*app_->add_flag(name, target));
+}
+
+Option OptionList::flag(const std::string& name,
+                        const std::function<void()>& use) {
+  return Option(*app_->add_flag_callback(name, use));
+}
+
+Option OptionList::text(const std::string& name, const std::string& value,
+                        const Use& use) {
+  return Option(
+      *app_->add_option_function<std::string>(name, use)->type_name(value));
+}
+
+Option OptionList::texts(const std::string& name, const std::string& value,
+                         const Use& use) {
+  const auto use_all = [use](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) use(text);
+  };
+  return Option(
+             *app_->add_option_function<std::vector<std::string>>(name, use_all)
+                  ->type_name(value))
+      .repeatable();
+}
+
+Option OptionList::number(const std::string& name, const std::string& value,
+                          double& target) {
+  const std::string option = name.substr(0, name.find(','));
+  return text(name, value, [option, &target](const std::string& words) {
+    target = require_within(option, words);
+  });
+}
+
+Option OptionList::count(const std::string& name, std::uint32_t& target) {
+  return text(name, "number", [name, &target](const std::string& words) {
+    const double count = require_within(name, words);
+    require(count == std::floor(count), name,
+            "a whole number was expected, not '{}'", words);
+    target = static_cast<std::uint32_t>(count);
+  });
+}
+
+Option OptionList::integer(const std::string& name, std::uint32_t& target) {
+  return Option(*app_->add_option(name, target)->type_name("number"));
+}
+
+Option OptionList::whole(const std::string& name,
+                         std::optional<unsigned>& target, unsigned least,
+                         unsigned most) {
+  return Option(*app_->add_option(name, target)
+                     ->check(CLI::Range(least, most))
+                     ->type_name("number"));
+}
+
+Option OptionList::layer_number(std::optional<std::size_t>& target) {
+  return Option(*app_->add_option("--layer-number", target)
+                     ->check(CLI::PositiveNumber)
+                     ->type_name("number"));
+}
+
+Option OptionList::layer_range(slicer::LayerNumbers& range) {
+  return text("--layers", "range", [&range](const std::string& words) {
+    range = parse_layers(words);
+  });
+}
+
+Option OptionList::name(const std::string& name, const std::string& what,
+                        std::string& target) {
+  return refuse_empty(app_->add_option(name, target), what);
+}
+
+Option OptionList::names(const std::string& name, const std::string& what,
+                         std::vector<std::string>& targets) {
+  return refuse_empty(app_->add_option(name, targets), what);
+}
+
+Option OptionList::choice(const std::string& name,
+                          const std::vector<std::string>& words,
+                          const Use& use) {
+  return Option(*app_->add_option_function<std::string>(name, use)
+                     ->type_name("word")
+                     ->check(CLI::IsMember(words)));
+}
+
+Option OptionList::boolean(const std::string& name, bool& target) {
+  const std::vector<std::string> words = {"true", "false", "on",
+                                          "off",  "1",     "0"};
+  const auto use = [&target](const std::string& word) {
+    target = word == "true" || word == "on" || word == "1";
+  };
+  return Option(*app_->add_option_function<std::string>(name, use)
+                     ->type_name("word")
+                     ->transform(CLI::IsMember(words, CLI::ignore_case)));
+}
+
+void OptionList::help_and_version() {
+  app_->set_help_flag("-h,--help");
+  app_->set_version_flag("-v,--version", fmt::format("lamina {}", version()));
+}
+
+void OptionList::begin_group(const std::string& group) {
+  app_->option_defaults()->group(group);
+}
+
+void OptionList::end_group() { begin_group("Options"); }  // as CLI11 does
+
+void OptionList::remove(const std::string& name) {
+  app_->remove_option(app_->get_option(name));
+}
+
+std::optional<Option> OptionList::find(const std::string& name) {
+  CLI::Option* const option = app_->get_option_no_throw(name);
+  return option != nullptr ? std::optional(Option(*option)) : std::nullopt;
+}
+
+void OptionList::on_read(const std::function<void()>& use) {
+  app_->parse_complete_callback(use);
+}
+
+std::optional<std::string> OptionList::read(int argc, const char* const* argv,
+                                            const std::string& help) {
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return help;
+  } catch (const CLI::CallForVersion& version) {
+    return fmt::format("{}\n", version.what());
+  } catch (const CLI::ExtrasError& error) {
+    throw compiler::RequestError(error.what() + hint_for(*app_));
+  } catch (const CLI::ParseError& error) {
+    throw compiler::RequestError(error.what());
+  }
+  return std::nullopt;
+}
+
+std::vector<GivenOption> OptionList::given() const {
+  std::vector<GivenOption> given;
+  for (const CLI::Option* option : app_->get_options()) {
+    if (option->count() == 0) continue;
+    given.push_back(
+        {option->get_name(), option->get_group(), option->results()});
+  }
+  return given;
+}
+
+std::vector<OptionFacts> OptionList::facts() const {
+  std::vector<OptionFacts> facts;
+  for (const CLI::Option* option : app_->get_options()) {
+    if (option->get_positional()) continue;
+    OptionFacts& fact = facts.emplace_back();
+    const std::string names = option->get_name(false, true);
+    for (std::size_t begin = 0; begin < names.size();) {
+      const std::size_t end = std::min(names.find(',', begin), names.size());
+      fact.names.push_back(names.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    fact.value = option->get_type_name();
+    fact.has_value = option->get_expected_max() > 0;
+    fact.may_repeat = fact.has_value && option->get_multi_option_policy() ==
+                                            CLI::MultiOptionPolicy::TakeAll;
+  }
+  return facts;
+}
+
+}  // namespace lamina::cli
