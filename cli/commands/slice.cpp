@@ -16,6 +16,7 @@
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
 #include "cli/options/design_options.h"
+#include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
