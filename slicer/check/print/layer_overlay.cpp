@@ -8,10 +8,8 @@
 #include <span>
 
 #include "base/diagnostic.h"
-#include "plane/chain_builder.h"
-#include "plane/chains.h"
 #include "plane/edge_tree.h"
-#include "slicer/check/print/layer_match.h"
+#include "plane/loop_area.h"
 
 namespace lamina::slicer {
 namespace {
@@ -36,39 +34,6 @@ constexpr int kFirstSegments = 16;
 
 // Crossings of two layers, at most: they take a minute.
 constexpr std::uint64_t kMostCrossings = 200'000'000;
-
-// A layer, cut into chains when it is first swept.
-class ChainedLayer {
- public:
-  void set(const plane::Contours& contours) {
-    contours_ = &contours;
-    is_cut_ = false;
-  }
-  const plane::Contours& contours() const { return *contours_; }
-
-  plane::LayerChains chains() {
-    if (!is_cut_) cut();
-    return block_.chains_of(0);
-  }
-
- private:
-  void cut() {
-    is_cut_ = true;
-    block_.layer_count = 1;
-    builder_.begin(block_);
-    for (std::size_t i = 0; i < contours_->loop_count(); ++i) {
-      const auto loop = contours_->loop(i);
-      builder_.loop().assign(loop.begin(), loop.end());
-      builder_.close_loop(0, static_cast<std::uint32_t>(i), 1);
-    }
-    builder_.finish(block_);
-  }
-
-  const plane::Contours* contours_ = nullptr;
-  bool is_cut_ = false;
-  plane::ChainBuilder builder_;
-  plane::ChainBlock block_;
-};
 
 // Chains of both layers on the ray.
 struct Sample {
@@ -106,12 +71,12 @@ struct Label {
 struct Gap {
   std::uint32_t upper = kNone;  // sample; none: the gap has no end
   std::uint32_t stamp = 0;      // of its events
-  // Of the layers; none of a gap that is new, so that what is above it learns
-  // of any.
+  // Of the layers. Those of a new gap differ from all, so that the gaps above it
+  // are renewed.
   std::array<Label, 2> labels = {Label{kUnknown}, Label{kUnknown}};
-  double begin = 0;      // x from where on it has been the same
-  bool is_wide = false;  // its certificate has seen more than the reach
-  int segments = 0;      // that the next look along its chains takes in
+  double begin = 0;             // x from where on it has been the same
+  bool is_wide = false;         // its certificate has seen more than the reach
+  int segments = 0;             // that the next look along its chains takes in
   const Vec2* lower_at = nullptr;
   const Vec2* upper_at = nullptr;
 
@@ -509,17 +474,28 @@ void LayerOverlay::clear() {
   overhangs.clear();
 }
 
+void ChainedLayer::fill(const plane::Contours& contours) {
+  block_.layer_count = 1;
+  areas_.clear();
+  builder_.begin(block_);
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const auto loop = contours.loop(i);
+    areas_.push_back(signed_area(loop));
+    builder_.loop().assign(loop.begin(), loop.end());
+    builder_.close_loop(0, static_cast<std::uint32_t>(i), 1);
+  }
+  builder_.finish(block_);
+}
+
 struct OverlaySweep::State {
   void start(const plane::Contours& layer) {
-    layers_[1].set(layer);
-    match_.start(layer);
-    areas_[1] = match_.areas();
+    layers_[1].fill(layer);
+    contours_ = &layer;
   }
   void lay_over(const plane::Contours& layer, double reach,
                 LayerOverlay& overlay);
 
  private:
-  void sweep();
   void begin();
   void take_endpoints(double end);
   void take_events(double end);
@@ -532,17 +508,17 @@ struct OverlaySweep::State {
   void close(std::uint32_t lower, double x);
   void link(const Gap& gap);
   bool is_linked(const Gap& gap) const;
-  void find_overhangs(LayerOverlay& overlay);
+  void find_overhangs(const plane::Contours& below,
+                      const plane::Contours& above, LayerOverlay& overlay);
 
   bool is_below(const Sample& sample, const Sample& other, double x) const;
-  bool is_outer(const Sample& sample) const {
-    return areas_[sample.layer][sample.loop] > 0;
-  }
   Label above(const Sample& sample) const { return side(sample, true); }
   Label side(const Sample& sample, bool is_above) const {
     const bool is_solid = sample.is_solid_above == is_above;
-    return {is_outer(sample) == is_solid ? sample.loop
-                                         : around_[sample.layer][sample.loop],
+    const ChainedLayer& layer = layers_[sample.layer];
+    return {layer.is_outer(sample.loop) == is_solid
+                ? sample.loop
+                : around_[sample.layer][sample.loop],
             is_solid};
   }
   Label label_below(std::size_t position, std::uint8_t layer) const;
@@ -552,9 +528,8 @@ struct OverlaySweep::State {
     std::push_heap(events_.begin(), events_.end(), is_later);
   }
 
-  LayerMatch match_;
   std::array<ChainedLayer, 2> layers_;
-  std::array<std::vector<double>, 2> areas_;  // of the loops, signed [mm²]
+  const plane::Contours* contours_ = nullptr;  // of the layer before
   std::array<std::vector<std::uint32_t>, 2> around_;
   double reach_ = 0;
   LayerOverlay* overlay_ = nullptr;
@@ -580,30 +555,7 @@ void OverlaySweep::State::lay_over(const plane::Contours& layer, double reach,
   overlay_ = &overlay;
   reach_ = reach;
   std::swap(layers_[0], layers_[1]);
-  layers_[1].set(layer);
-  std::swap(areas_[0], areas_[1]);
-  const bool is_matched = match_.take(layer, reach);
-  areas_[1] = match_.areas();
-  overlay.areas = match_.areas();
-  overlay.voids.push_back({kOutside, kOutside});
-  if (is_matched) {
-    for (std::uint32_t i = 0; i < overlay.areas.size(); ++i) {
-      (overlay.areas[i] > 0 ? overlay.solids : overlay.voids).push_back({i, i});
-    }
-    overlay.around = match_.around();
-  } else {
-    sweep();
-    overlay.around = around_[1];
-    find_overhangs(overlay);
-  }
-  for (std::vector<Overlap>* overlaps : {&overlay.solids, &overlay.voids}) {
-    std::ranges::sort(*overlaps);
-    overlaps->erase(std::unique(overlaps->begin(), overlaps->end()),
-                    overlaps->end());
-  }
-}
-
-void OverlaySweep::State::sweep() {
+  layers_[1].fill(layer);
   begin();
   while (next_endpoint_ < endpoints_.size()) {
     double x = endpoints_[next_endpoint_].x;
@@ -613,6 +565,15 @@ void OverlaySweep::State::sweep() {
     take_endpoints(end);
     settle(x);
   }
+  for (std::vector<Overlap>* overlaps : {&overlay.solids, &overlay.voids}) {
+    std::ranges::sort(*overlaps);
+    overlaps->erase(std::unique(overlaps->begin(), overlaps->end()),
+                    overlaps->end());
+  }
+  overlay.around = around_[1];
+  overlay.areas = layers_[1].areas();
+  find_overhangs(*contours_, layer, overlay);
+  contours_ = &layer;
 }
 
 // Puts the endpoints of all chains in order.
@@ -621,7 +582,7 @@ void OverlaySweep::State::begin() {
   endpoints_.clear();
   for (std::uint8_t layer = 0; layer < 2; ++layer) {
     const plane::LayerChains chains = layers_[layer].chains();
-    around_[layer].assign(areas_[layer].size(), kNowhere);
+    around_[layer].assign(layers_[layer].loop_count(), kNowhere);
     for (const Chain& chain : chains.chains) {
       const std::span<const Vec2> points = chain.points_in(chains.points);
       Sample sample;
@@ -649,7 +610,7 @@ void OverlaySweep::State::begin() {
   dirty_.clear();
   ledges_.clear();
   for (auto& linked : last_linked_) {
-    linked.assign(areas_[1].size() + 1, kUnknown);
+    linked.assign(layers_[1].loop_count() + 1, kUnknown);
   }
 }
 
@@ -739,7 +700,8 @@ void OverlaySweep::State::insert(std::uint32_t sample, double x) {
   if (around == kUnknown) {
     // A loop begins on its left, where its outer side is below.
     const Label label = label_below(at, begun.layer);
-    const bool fits = label.is_solid != is_outer(begun);
+    const bool fits =
+        label.is_solid != layers_[begun.layer].is_outer(begun.loop);
     around = fits ? label.region : kOutside;
   }
   mark(sample);
@@ -875,7 +837,9 @@ void OverlaySweep::State::link(const Gap& gap) {
       .push_back({below.region, above.region});
 }
 
-void OverlaySweep::State::find_overhangs(LayerOverlay& overlay) {
+void OverlaySweep::State::find_overhangs(const plane::Contours& below,
+                                         const plane::Contours& above,
+                                         LayerOverlay& overlay) {
   std::vector<bool> overlaps_solid(overlay.around.size());
   for (const Overlap& overlap : overlay.solids) {
     overlaps_solid[overlap.above] = true;
@@ -886,8 +850,7 @@ void OverlaySweep::State::find_overhangs(LayerOverlay& overlay) {
            !overlaps_solid[ledge.region];
   });
   if (ledges_.empty()) return;
-  OverhangSearch search(layers_[0].contours(), layers_[1].contours(), ledges_,
-                        reach_, overlay.overhangs);
+  OverhangSearch search(below, above, ledges_, reach_, overlay.overhangs);
   for (const Ledge& ledge : ledges_) search.search(ledge);
 }
 

@@ -7,13 +7,10 @@
 // insides have an area in common; to touch in a line is none. These overlaps
 // are the arcs of the layer graph (layer_graph.h), a Reeb graph of the height.
 //
-// Most layers are the one below, moved a little. Where their loops prove that
-// (layer_match.h), regions of the same number overlap and nothing hangs over.
-//
-// Otherwise a ray moves over both layers at once, as in plane/sweep. Chains of
-// one layer never cross, so only neighbours from different layers need a
-// certificate: half of them, and the order is all that the sweep keeps. Between
-// two neighbours on the ray there is one region of each layer. Where the layer
+// A ray moves over both layers at once, as in plane/sweep. Chains of one layer
+// never cross, so only neighbours from different layers need a certificate:
+// half of them, and the order is all that the sweep keeps. Between two
+// neighbours on the ray there is one region of each layer. Where the layer
 // below is void and the one above is solid the gap is a **ledge**, and a ledge
 // that is wider than `reach` is searched for places that are farther than that
 // from all that holds it: an **overhang**.
@@ -23,6 +20,8 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "plane/chain_builder.h"
+#include "plane/chains.h"
 #include "plane/contours.h"
 
 namespace lamina::slicer {
@@ -65,6 +64,26 @@ struct LayerOverlay {
   std::vector<Overhang> overhangs;
 
   void clear();
+};
+
+// A layer as chains, in the order of its loops.
+class ChainedLayer {
+ public:
+  // contours  disjoint simple loops, outer ones counter-clockwise and holes
+  //           clockwise
+  void fill(const plane::Contours& contours);
+
+  plane::LayerChains chains() const { return block_.chains_of(0); }
+  std::uint32_t loop_count() const {
+    return static_cast<std::uint32_t>(areas_.size());
+  }
+  bool is_outer(std::uint32_t loop) const { return areas_[loop] > 0; }
+  const std::vector<double>& areas() const { return areas_; }
+
+ private:
+  plane::ChainBuilder builder_;
+  plane::ChainBlock block_;
+  std::vector<double> areas_;
 };
 
 class OverlaySweep {

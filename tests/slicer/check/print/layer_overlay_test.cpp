@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <set>
 #include <utility>
@@ -10,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "slicer/check/print/layer_match.h"
 #include "tests/slicer/check/print/cell_layers.h"
 
 namespace lamina::slicer {
@@ -24,8 +22,6 @@ LayerOverlay overlay_of(const plane::Contours& below,
   sweep.lay_over(above, reach, overlay);
   return overlay;
 }
-
-// --- Cells ------------------------------------------------------------------
 
 constexpr double kWidth = 0.5;
 
@@ -119,90 +115,6 @@ TEST(OverlaySweep, FindsWhatCellsShare) {
     const double angle = trial % 3 == 0 ? 0 : 0.001 * trial;
     expect_as_by_cells(below, above, angle, trial % 5 == 0 ? 0.45 : 0.3);
   }
-}
-
-// --- Layers that are moved --------------------------------------------------
-
-// A round loop with waves, clockwise if its radius is negative.
-void add_blob(plane::Contours& contours, Vec2 middle, double radius,
-              double wave, int vertices) {
-  std::vector<Vec2> loop;
-  for (int k = 0; k < vertices; ++k) {
-    const double angle = 2 * std::numbers::pi * k / vertices;
-    const double r = std::abs(radius) * (1 + wave * std::sin(5 * angle));
-    loop.push_back(middle + r * Vec2(std::cos(angle), radius < 0
-                                                          ? -std::sin(angle)
-                                                          : std::sin(angle)));
-  }
-  contours.add_loop(loop);
-}
-
-// A plate with two holes, and another one in the larger of these. Loops stay
-// apart where nothing changes by more than 0.3 mm.
-struct Plate {
-  Vec2 shift = Vec2(0);
-  double growth = 0;
-  double wave = 0.05;
-  double hole = 2;
-  int vertices = 60;
-
-  plane::Contours contours(bool has_mate) const {
-    plane::Contours contours;
-    add_blob(contours, shift, 5 + growth, wave, vertices);
-    add_blob(contours, Vec2(1, 0) + shift, -hole, wave, vertices / 2);
-    add_blob(contours, Vec2(1.2, 0), 0.5 + growth, 0, vertices / 3);
-    add_blob(contours, Vec2(-3.2, 0.3), -0.5 + growth, 0, 4);
-    if (has_mate) add_blob(contours, Vec2(12, 0), 1, 0, 4);
-    return contours;
-  }
-};
-
-// A mate defeats the proof, and adds a region and nothing else.
-LayerOverlay swept_overlay(const Plate& below, const Plate& above,
-                           double reach) {
-  LayerOverlay overlay =
-      overlay_of(below.contours(false), above.contours(true), reach);
-  overlay.areas.pop_back();
-  overlay.around.pop_back();
-  return overlay;
-}
-
-TEST(LayerMatch, ChangesNothing) {
-  std::mt19937 random(2);
-  const auto number = [&](double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(random);
-  };
-  int proofs = 0;
-  constexpr int kTrials = 2000;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    SCOPED_TRACE(trial);
-    Plate below;
-    below.hole = number(1.9, 2.3);
-    below.vertices = 30 + trial % 60;
-    Plate above = below;
-    const double most = std::pow(10.0, number(-3, -0.6));
-    above.shift = Vec2(number(-most, most), number(-most, most));
-    above.growth = number(-most, most);
-    above.hole += number(-most, most);
-    above.vertices += trial % 3 == 0 ? trial % 7 : 0;
-    const double reach = number(0.01, 0.4);
-    const plane::Contours first = below.contours(false);
-    const plane::Contours second = above.contours(false);
-    LayerMatch match;
-    match.start(first);
-    const bool is_proven = match.take(second, reach);
-    const LayerOverlay overlay = overlay_of(first, second, reach);
-    const LayerOverlay swept = swept_overlay(below, above, reach);
-    EXPECT_EQ(overlay.solids, swept.solids);
-    EXPECT_EQ(overlay.voids, swept.voids);
-    EXPECT_EQ(overlay.around, swept.around);
-    EXPECT_EQ(overlay.areas, swept.areas);
-    EXPECT_EQ(overlay.overhangs.size(), swept.overhangs.size());
-    EXPECT_TRUE(!is_proven || swept.overhangs.empty());
-    proofs += is_proven ? 1 : 0;
-  }
-  EXPECT_GT(proofs, kTrials / 4);
-  EXPECT_LT(proofs, kTrials * 3 / 4);
 }
 
 }  // namespace
