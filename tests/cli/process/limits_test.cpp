@@ -10,6 +10,7 @@
 #include "cli/options/common_options.h"
 #include "cli/process/machine_memory.h"
 #include "cli/process/process_watch.h"
+#include "compiler/validate.h"
 #include "tests/cli/lamina.h"
 #include "tests/support/text.h"
 
@@ -57,7 +58,7 @@ TEST(MemoryLimit, IsNothingElse) {
   for (const char* const text :
        {"", "G", "%", "0", "-1G", "0%", "101%", "nan", "inf", "1e30", "2 G",
         "2GB", "2T", "G2", "1G%", "0x10"}) {
-    EXPECT_THROW(parse_memory_limit(text), RequestError) << text;
+    EXPECT_THROW(parse_memory_limit(text), compiler::RequestError) << text;
   }
 }
 
