@@ -66,10 +66,18 @@ void append(Mesh& mesh, const Mesh& other) {
 }
 
 Mesh explicit_mesh(const Leaf& leaf) {
-  Leaf lofts;
-  lofts.lofts = leaf.lofts;
-  LeafFaces faces = faces_of(lofts, Affine(1.0));
-  Mesh result{std::move(faces.vertices), std::move(faces.triangles)};
+  Mesh result;
+  // One by one: together, caps of cavities would be cut out of those around them.
+  for (const Loft& loft : leaf.lofts) {
+    Leaf alone;
+    alone.lofts.push_back(loft);
+    alone.lofts.front().is_cavity = false;
+    LeafFaces faces = faces_of(alone, Affine(1.0));
+    if (loft.is_cavity) {
+      for (auto& t : faces.triangles) std::swap(t[1], t[2]);
+    }
+    append(result, {std::move(faces.vertices), std::move(faces.triangles)});
+  }
   for (const Mesh& mesh : leaf.meshes) append(result, mesh);
   return result;
 }
