@@ -67,7 +67,8 @@ void append(Mesh& mesh, const Mesh& other) {
 
 Mesh explicit_mesh(const Leaf& leaf) {
   Mesh result;
-  // One by one: together, caps of cavities would be cut out of those around them.
+  // One by one: together, caps of cavities would be cut out of those around
+  // them.
   for (const Loft& loft : leaf.lofts) {
     Leaf alone;
     alone.lofts.push_back(loft);

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -52,8 +54,20 @@ Box3 box_of_result(const Scene& scene) {
 }
 
 // Other facets make a box larger or smaller by about the chordal error, and the
-// factors differ by as much from the draft to the final lowering.
+// factors differ by as much from one lowering to the next.
 constexpr double kGrowthSlack = 1.01;
+
+// How often what is resized is lowered until its factors settle. They do at
+// once unless it is about as small as the chordal error; each lowering after
+// the draft then brings a factor nearer to what it comes to, by as much as the
+// result is larger than the error.
+constexpr int kMostLowerings = 4;
+
+// Coarse facets may leave nothing of what is resized. Where they do it is
+// lowered with facets finer by so much, to know whether there is something.
+// Files of CAD programs take longer the finer they are.
+constexpr double kShareToFind = 0.01;
+constexpr double kShareToFindParts = 0.1;
 
 // The factors of resize(), by OpenSCAD's rules. A size of 0 keeps that
 // direction, or with `auto` scales it as the direction of the greatest new
@@ -85,7 +99,7 @@ glm::vec<kDimensions, double> factor_for(
   return factor;
 }
 
-// Returns nothing where the region is empty.
+// None of what is empty.
 std::optional<Vec3> resize_factor(const Resize& op,
                                   const plane::Region& region) {
   if (region.is_empty()) return std::nullopt;
@@ -147,39 +161,77 @@ Lowerer::Resized Lowerer::resize(const Resize& op, const Place& at) {
   } else {
     resized.factor = resize_factor(op, apart.scene, apart.is_boolean);
   }
-  if (is_first) {
-    const Vec3 needed = glm::abs(resized.factor.value_or(Vec3(1)));
-    shared_.growths[&at.node] = kGrowthSlack * needed;
+  const Vec3 needed = glm::abs(resized.factor.value_or(Vec3(1)));
+  if (is_first || glm::any(glm::greaterThan(needed, growth))) {
+    shared_.growths[&at.node] = is_first
+                                    ? kGrowthSlack * needed
+                                    : glm::max(kGrowthSlack * needed, growth);
+    shared_.has_grown = true;
   }
+  if (!resized.factor) shared_.empty.insert(&at.node);
   return resized;
 }
 
 void Lowerer::draft_sizes(const Resize& op, const Place& at) {
-  Diagnostics unheard;
+  const auto draft = [&](const LowerOptions& options) {
+    Diagnostics unheard;
+    shared_.empty.clear();
+    Lowerer(at.node.children.size(), options, shared_, unheard).resize(op, at);
+  };
   // Decimation is slow, and a size changes little by it.
   LowerOptions options = options_;
   options.decimation = 0;
-  shared_.is_drafting = true;
-  Lowerer(at.node.children.size(), options, shared_, unheard).resize(op, at);
-  shared_.is_drafting = false;
+  draft(options);
+  if (shared_.empty.empty()) return;
+  options.chordal_error *= kShareToFind;
+  options.chordal_error_of_parts *= kShareToFindParts;
+  try {
+    draft(options);
+  } catch (const GeometryError&) {
+    return;  // so fine it is too large to know
+  }
+  shared_.known_empty.merge(shared_.empty);
+}
+
+Lowerer::Resized Lowerer::resize_finely(const Resize& op, const Place& at) {
+  std::set<std::string> known;
+  for (const auto& [key, leaf] : shared_.decimated) known.insert(key);
+  shared_.is_resizing = true;
+  if (!shared_.growths.contains(&at.node)) draft_sizes(op, at);
+  Resized resized;
+  Diagnostics heard;
+  for (int i = 0; i < kMostLowerings; ++i) {
+    // What files have to say is said when they are read.
+    std::erase_if(shared_.decimated, [&](const auto& entry) {
+      return !known.contains(entry.first);
+    });
+    shared_.has_grown = false;
+    shared_.empty.clear();
+    heard = Diagnostics();
+    resized = Lowerer(at.node.children.size(), options_, shared_, heard)
+                  .resize(op, at);
+    if (!shared_.has_grown) break;
+  }
+  shared_.is_resizing = false;
+  for (const Diagnostic& message : heard.all()) diagnostics_.report(message);
+  const bool has_lost =
+      !std::includes(shared_.known_empty.begin(), shared_.known_empty.end(),
+                     shared_.empty.begin(), shared_.empty.end());
+  if (shared_.has_grown || has_lost) {
+    diagnostics_.own_warning(
+        at.node.range,
+        "The size of what resize() scales changes with its facets, which may "
+        "be farther off than asked for");
+  }
+  return resized;
 }
 
 Shape Lowerer::lower_op(const Resize& op, const Place& at) {
   const bool depends = options_.chordal_error > 0 ||
                        options_.chordal_error_of_parts > 0 ||
                        options_.decimation > 0;
-  const bool is_known =
-      shared_.is_drafting || shared_.growths.contains(&at.node);
-  if (depends && !is_known) draft_sizes(op, at);
-  Resized resized = resize(op, at);
-  const Vec3 needed = glm::abs(resized.factor.value_or(Vec3(0)));
-  if (depends &&
-      glm::any(glm::greaterThan(needed, shared_.growths.at(&at.node)))) {
-    diagnostics_.own_warning(
-        at.node.range,
-        "The size of what resize() scales changes with its facets, which may "
-        "be farther off than asked for");
-  }
+  Resized resized =
+      depends && !shared_.is_resizing ? resize_finely(op, at) : resize(op, at);
   Apart& apart = resized.apart;
   const Mat4 scale = scaling(resized.factor.value_or(Vec3(1)));
   if (apart.dimension == Dimension::kFlat) {

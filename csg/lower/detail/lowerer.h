@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,10 +66,14 @@ concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
 struct SharedTables {
   HullTable hulls;
   std::map<std::string, Leaf> decimated;  // by file, arguments and tolerance
-  // How far each resize() makes its subtree larger, as a draft of the outermost
-  // one has found. Its facets are finer by that.
+  // Of resize(): how far each makes its subtree larger, as far as is known. Its
+  // facets are finer by that; the factor depends on the facets in turn, so the
+  // outermost resize() has all below lowered until none grows any more.
   std::map<const Node*, Vec3> growths;
-  bool is_drafting = false;
+  bool is_resizing = false;
+  bool has_grown = false;
+  std::set<const Node*> empty;        // of resizes, in this lowering
+  std::set<const Node*> known_empty;  // with far finer facets, too
 };
 
 class Lowerer {
@@ -210,10 +215,12 @@ class Lowerer {
     Apart apart;
     std::optional<Vec3> factor;  // none of what is empty
   };
-  // With facets finer by the growth known so far; notes it where none is.
+  // With facets finer by the growth known so far; notes it where it is greater.
   Resized resize(const Resize& op, const Place& at);
-  // Notes how far an outermost resize() and all below it grow, from a draft.
+  // Of an outermost resize(): notes how far all below it grow, from drafts.
   void draft_sizes(const Resize& op, const Place& at);
+  // Of an outermost resize(): with facets that are fine enough.
+  Resized resize_finely(const Resize& op, const Place& at);
 
   // --- lower_minkowski.cpp --------------------------------------------------
   Shape lower_op(const Minkowski& op, const Place& at);

@@ -138,6 +138,57 @@ TEST_F(Resizes, WithinEachOtherAreLoweredTwiceInAll) {
   EXPECT_GE(count(lowered), count(expected));
 }
 
+// With a chordal error of 2 mm no corner of the circle's 5 sides is at its left
+// end, and nothing is left of an offset or a cut.
+TEST_F(Resizes, FindWhatCoarseFacetsHide) {
+  const Node* strip =
+      b.node(Intersection{},
+             {b.node(Circle{10}),
+              b.translate({-10, -10, 0}, {b.node(Square{{0.5, 20}})})});
+  const Node* dot = b.node(Offset{-9.9, true}, {b.node(Circle{10})});
+  const Node* cap =
+      b.node(Projection{true}, {b.translate({0, 0, -9.9}, {b.sphere(10, 0)})});
+  LowerOptions options;
+  options.chordal_error = 2;
+  for (const Node* hidden : {strip, dot, cap}) {
+    for (const bool is_within : {false, true}) {
+      const Node* node = b.node(Resize{{40, 40, 0}, kNone}, {hidden});
+      // Beside what is not hidden, in a greater resize() that keeps the size.
+      if (is_within) {
+        node =
+            b.node(Resize{{0, 0, 0}, kNone},
+                   {node, b.translate({100, 0, 0}, {b.node(Square{{1, 1}})})});
+      }
+      const Lowered lowered = lower(b.tree({node}), options, diagnostics);
+      const plane::Region* region = lowered.outline();
+      ASSERT_NE(region, nullptr);
+      ASSERT_EQ(region->contours.size(), is_within ? 2U : 1U);
+      Box2 box;
+      box.add(region->contours[0]);
+      if (is_within && box.low.x > 90) {
+        box = Box2();
+        box.add(region->contours[1]);
+      }
+      EXPECT_NEAR(box.size().x, 40, 1e-6);
+      EXPECT_NEAR(box.size().y, 40, 1e-6);
+    }
+  }
+  EXPECT_TRUE(messages().empty());
+}
+
+TEST_F(Resizes, SayWhereFacetsHideWhatKeepsItsSize) {
+  LowerOptions options;
+  options.chordal_error = 2;
+  const Tree tree =
+      b.tree({b.node(Resize{{0, 0, 0}, kNone},
+                     {b.node(Offset{-9.9, true}, {b.node(Circle{10})})})});
+  EXPECT_TRUE(lower(tree, options, diagnostics).is_empty());
+  EXPECT_EQ(messages(),
+            std::vector<std::string>{
+                "The size of what resize() scales changes with its facets, "
+                "which may be farther off than asked for"});
+}
+
 TEST_F(Resizes, OfBooleansThatAreEmptySayNothing) {
   LowerOptions options;
   for (const double error : {2.0, 0.1, 0.01}) {
