@@ -53,7 +53,7 @@ void print_findings(const lamina::Design& design) {
     if (finding.is_minor) continue;
     std::fprintf(stderr, "layer %u at z %.2f mm, %.3f mm2: %s\n",
                  finding.first_layer, finding.z, finding.area,
-                 finding.origin.c_str());
+                 finding.source_line.c_str());
   }
 }
 
