@@ -150,10 +150,6 @@ const NumberLimits& limits_of(std::string_view option) {
   return *found;
 }
 
-void require_within(std::string_view option, double value) {
-  require(limits_of(option), value);
-}
-
 void validate(const Request& request) {
   for (const NumberLimits& limits : kNumbers) {
     const double value = limits.value_of(request);

@@ -60,9 +60,6 @@ struct NumberLimits {
 // The limits of the number that an option sets.
 const NumberLimits& limits_of(std::string_view option);
 
-// Throws RequestError unless the number is within the option's limits.
-void require_within(std::string_view option, double value);
-
 // Throws RequestError where a number is not within its limits, where a word is
 // unknown, and where options contradict each other or the format of the output,
 // so that nobody believes that an option was obeyed which was not.
