@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -80,9 +81,9 @@ std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
   return rule;
 }
 
-// Writes the product of a stage before layers, and the rule.
-void write_stage(Compilation& c, OutputFile* rule) {
-  write_file(c.request.output.path, stage_text(c), c.temporary_files);
+// Writes a text instead of layers, and the rule.
+void write_text(const Compilation& c, std::string_view text, OutputFile* rule) {
+  write_file(c.request.output.path, text, c.temporary_files);
   if (rule != nullptr) rule->commit();
 }
 
@@ -96,8 +97,7 @@ bool write_dump(Compilation& c, OutputFile* rule) {
       *lowered.scene(), plan(lowered, settings_of(c.request)),
       {*output.dump, *output.dump_height, slicer::is_named(output.path, ".svg"),
        &line_text});
-  write_file(output.path, dump, c.temporary_files);
-  if (rule != nullptr) rule->commit();
+  write_text(c, dump, rule);
   return true;
 }
 
@@ -122,7 +122,8 @@ bool compile(Compilation& c) {
   // The syntax tree is written before anything is evaluated: what a design
   // does is not a matter of its syntax.
   if (format == OutputFormat::kAst || format == OutputFormat::kParam) {
-    write_stage(c, begin_rule(c).get());
+    const auto rule = begin_rule(c);
+    write_text(c, stage_text(c), rule.get());
     return true;
   }
 
@@ -138,7 +139,7 @@ bool compile(Compilation& c) {
   // Texts end well even where the design failed, as openscad's do; strict runs
   // have ended.
   if (!slicer::is_of_layers(format)) {
-    write_stage(c, rule.get());
+    write_text(c, stage_text(c), rule.get());
     return !ends_hard(c);
   }
   if (c.has_failed) return false;
