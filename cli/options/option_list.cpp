@@ -1,6 +1,5 @@
 #include "cli/options/option_list.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -242,11 +241,11 @@ std::vector<OptionFacts> OptionList::facts() const {
   for (const CLI::Option* option : app_->get_options()) {
     if (option->get_positional()) continue;
     OptionFacts& fact = facts.emplace_back();
-    const std::string names = option->get_name(false, true);
-    for (std::size_t begin = 0; begin < names.size();) {
-      const std::size_t end = std::min(names.find(',', begin), names.size());
-      fact.names.push_back(names.substr(begin, end - begin));
-      begin = end + 1;
+    for (const std::string& name : option->get_snames()) {
+      fact.names.push_back("-" + name);
+    }
+    for (const std::string& name : option->get_lnames()) {
+      fact.names.push_back("--" + name);
     }
     fact.value = option->get_type_name();
     fact.has_value = option->get_expected_max() > 0;
