@@ -31,12 +31,14 @@ enum class DumpStage : std::uint8_t { kScene, kChains, kEvents, kContours };
 inline constexpr std::array<std::string_view, 4> kDumpStages = {
     "scene", "chains", "events", "contours"};
 
+// Returns the line of the design that made an instance.
+using LineOf = std::string (*)(const csg::Instance& instance);
+
 struct DumpRequest {
   DumpStage stage = DumpStage::kScene;
   double z = 0;             // in the layer that is dumped [mm]
   bool is_drawing = false;  // SVG instead of text
-  // Returns the line of the design that made an instance.
-  std::string (*line_of)(const csg::Instance& instance) = nullptr;
+  LineOf line_of = nullptr;
 };
 
 // Throws GeometryError where no layer of the grid holds the height; where

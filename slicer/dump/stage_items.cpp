@@ -224,7 +224,7 @@ std::vector<DumpItem> contour_items(const DumpedLayer& layer) {
 
 DumpedLayer::DumpedLayer(const csg::Scene& its_scene,
                          const ldni::LayerGrid& grid, std::uint32_t number,
-                         decltype(DumpRequest::line_of) leaf_line)
+                         LineOf leaf_line)
     : scene(its_scene), program(csg::program_of(scene)), line_of(leaf_line) {
   ldni::LeafSectioner(scene, grid).cut(number, 1, block);
   chains = block.chains_of(0);

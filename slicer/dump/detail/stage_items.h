@@ -30,14 +30,12 @@ struct DumpItem {
 // A layer of the grid, cut and swept.
 struct DumpedLayer {
   // The scene must outlive the object.
-  //
-  // leaf_line  DumpRequest::line_of
   DumpedLayer(const csg::Scene& its_scene, const ldni::LayerGrid& grid,
-              std::uint32_t number, decltype(DumpRequest::line_of) leaf_line);
+              std::uint32_t number, LineOf leaf_line);
 
   const csg::Scene& scene;
   const plane::BooleanProgram program;
-  const decltype(DumpRequest::line_of) line_of;
+  const LineOf line_of;
   ldni::SectionBlock block;
   plane::LayerChains chains;
   plane::Contours contours;
