@@ -1,7 +1,6 @@
 #include "compiler/passes.h"
 
 #include <sstream>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -4,9 +4,6 @@
 #include <array>
 #include <set>
 #include <string>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "base/text.h"
 #include "cli/commands/commands.h"

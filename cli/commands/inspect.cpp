@@ -1,8 +1,5 @@
 // lamina inspect: layers of a file or of a design checked, measured and listed.
 
-#include <string>
-#include <utility>
-
 #include "base/paths.h"
 #include "cli/commands/commands.h"
 #include "cli/options/design_options.h"

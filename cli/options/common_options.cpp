@@ -4,8 +4,6 @@
 #include <optional>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "base/text.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"

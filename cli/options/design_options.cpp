@@ -1,9 +1,5 @@
 #include "cli/options/design_options.h"
 
-#include <algorithm>
-#include <string_view>
-
-#include <fmt/format.h>
 
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"

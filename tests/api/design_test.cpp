@@ -1,10 +1,8 @@
 // lamina as a library, as another program sees it: by its one header.
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <locale>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <string_view>

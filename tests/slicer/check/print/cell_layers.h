@@ -4,8 +4,6 @@
 
 #include <cstdint>
 #include <random>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "base/vec.h"
