@@ -1,6 +1,5 @@
 #include "cli/options/design_options.h"
 
-
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "slicer/formats/output_format.h"

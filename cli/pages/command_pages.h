@@ -1,7 +1,7 @@
 #pragma once
-// Every command with its options: what the reader of options knows of them joined with what the
-// help says; and the pages made from that: the manual, and the completions of
-// the three usual shells.
+// Every command with its options: what the reader of options knows of them
+// joined with what the help says; and the pages made from that: the manual, and
+// the completions of the three usual shells.
 
 #include <span>
 #include <string>

@@ -28,7 +28,8 @@ std::string layers_text(const Finding& finding) {
              : fmt::format("{}-{}", finding.first_layer, finding.last_layer);
 }
 
-// A line of the table: the greatest of all findings of a kind and a source line.
+// A line of the table: the greatest of all findings of a kind and a source
+// line.
 struct Line {
   std::size_t greatest = 0;  // index of the finding
   std::size_t count = 0;

@@ -16,9 +16,9 @@
 namespace lamina::cli {
 namespace {
 
+using support::has;
 using support::read_file;
 using support::TemporaryFolder;
-using support::has;
 
 std::vector<slicer::SlcLayer> read_slc(const std::string& path) {
   slicer::SlcReader reader(path);

@@ -17,8 +17,8 @@ namespace lamina::cli {
 namespace {
 
 using compiler::make_rule;
-using support::TemporaryFolder;
 using support::has;
+using support::TemporaryFolder;
 
 // All that make would be glad to take for something else.
 const char* const kNames[] = {

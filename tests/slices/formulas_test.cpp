@@ -1,5 +1,7 @@
 // Layers of designs against closed formulas, through the whole library.
 
+#include "tests/support/formulas.h"
+
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -10,7 +12,6 @@
 
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
-#include "tests/support/formulas.h"
 
 namespace lamina {
 namespace {

@@ -71,12 +71,12 @@ struct Label {
 struct Gap {
   std::uint32_t upper = kNone;  // sample; none: the gap has no end
   std::uint32_t stamp = 0;      // of its events
-  // Of the layers. Those of a new gap differ from all, so that the gaps above it
-  // are renewed.
+  // Of the layers. Those of a new gap differ from all, so that the gaps above
+  // it are renewed.
   std::array<Label, 2> labels = {Label{kUnknown}, Label{kUnknown}};
-  double begin = 0;             // x from where on it has been the same
-  bool is_wide = false;         // its certificate has seen more than the reach
-  int segments = 0;             // that the next look along its chains takes in
+  double begin = 0;      // x from where on it has been the same
+  bool is_wide = false;  // its certificate has seen more than the reach
+  int segments = 0;      // that the next look along its chains takes in
   const Vec2* lower_at = nullptr;
   const Vec2* upper_at = nullptr;
 

@@ -23,7 +23,7 @@ struct Step {
 class Stitcher {
  public:
   Stitcher(std::span<const std::uint8_t> pixels, std::size_t columns,
-         std::size_t rows)
+           std::size_t rows)
       : pixels_(pixels), columns_(columns), rows_(rows) {}
 
   plane::Contours trace() {

@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using support::has;
 using support::read_file;
 using support::TemporaryFolder;
-using support::has;
 
 std::size_t count_lines(const std::string& text, const std::string& begin) {
   std::istringstream lines(text);

@@ -14,8 +14,8 @@
 namespace lamina::cli {
 namespace {
 
-using support::TemporaryFolder;
 using support::has;
+using support::TemporaryFolder;
 
 // Cylinders of radius 5 and height 12.
 void add_seed(const TemporaryFolder& folder, const std::string& seed,

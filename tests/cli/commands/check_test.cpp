@@ -13,9 +13,9 @@ namespace lamina::cli {
 namespace {
 
 using nlohmann::json;
+using support::has;
 using support::read_file;
 using support::TemporaryFolder;
-using support::has;
 
 const char* const kFloating = "cube(10);\ntranslate([20, 0, 5]) cube(4);\n";
 

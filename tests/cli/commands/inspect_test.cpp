@@ -8,8 +8,8 @@ namespace lamina::cli {
 namespace {
 
 using nlohmann::json;
-using support::TemporaryFolder;
 using support::has;
+using support::TemporaryFolder;
 
 // `inspect` ends with 1 and says all of these.
 void expect_defects(const TemporaryFolder& folder, const std::string& file,

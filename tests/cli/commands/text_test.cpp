@@ -1,5 +1,7 @@
 // text(), textmetrics() and fontmetrics() in whole runs.
 
+#include "tests/support/text.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,14 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/lamina.h"
-#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
+using support::has;
 using support::read_file;
 using support::TemporaryFolder;
-using support::has;
 
 std::string echo_of(const std::string& design) {
   const TemporaryFolder folder;

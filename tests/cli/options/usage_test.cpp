@@ -10,8 +10,8 @@
 namespace lamina::cli {
 namespace {
 
-using support::TemporaryFolder;
 using support::has;
+using support::TemporaryFolder;
 
 TEST(Usage, VersionIsOneLineOnStandardOutput) {
   const TemporaryFolder folder;

@@ -17,9 +17,9 @@
 namespace lamina::cli {
 namespace {
 
+using support::has;
 using support::ProcessResult;
 using support::TemporaryFolder;
-using support::has;
 
 // Nothing but the design is in its folder.
 void expect_no_output(const TemporaryFolder& folder) {

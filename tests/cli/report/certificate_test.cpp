@@ -13,9 +13,9 @@ namespace lamina::cli {
 namespace {
 
 using nlohmann::json;
+using support::has;
 using support::read_file;
 using support::TemporaryFolder;
-using support::has;
 
 json read_report(const TemporaryFolder& folder) {
   return json::parse(read_file(folder.file("r.json")));

@@ -235,8 +235,8 @@ TEST(PlaneBooleanLaws, PetalsThatMeetInOnePointAreContours) {
   EXPECT_EQ(area(flower), 4 * 17.0 / 8);
 }
 
-// Under a second where nothing else runs; a search that compares each vertex with
-// each other one meets the time limit of a test.
+// Under a second where nothing else runs; a search that compares each vertex
+// with each other one meets the time limit of a test.
 TEST(PlaneBooleanLaws, HoldForManyVertices) {
   const Region disc = csg::circle(20, 200'000);
   Region moved = disc;
