@@ -12,7 +12,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/boundary/box_tree.h"
+#include "csg/mesh/box_tree.h"
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
 #include "plane/program/program_state.h"

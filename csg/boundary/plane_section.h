@@ -15,7 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "csg/boundary/box_tree.h"
+#include "csg/mesh/box_tree.h"
 #include "csg/boundary/leaf_faces.h"
 #include "csg/scene.h"
 #include "plane/region/region.h"

@@ -11,7 +11,7 @@
 #include "csg/lower/detail/repair.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -20,55 +20,29 @@
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/leaf_mesh.h"
+#include "csg/boundary/plane_section.h"
 #include "csg/lower/detail/face.h"
+#include "csg/mesh/drop_triangles.h"
 #include "csg/mesh/edge_table.h"
+#include "csg/mesh/fill_hole.h"
 #include "csg/mesh/vertex_table.h"
+#include "csg/mesh/weld.h"
+#include "plane/region/boolean.h"
 
 namespace lamina::csg {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Vertices closer than this [mm] are one where a mesh is open otherwise: the
-// grid on which OpenSCAD puts its vertices. Points of neighbouring faces that
-// were computed apart differ by rounding, 1e-15 or so; nobody prints 1e-6.
-constexpr double kMergeDistance = 0.00000095367431640625;
+// Edges that were joined over less [mm] are no crack to speak of: the grid on
+// which OpenSCAD puts its vertices. Points of neighbouring faces that were
+// computed apart differ by rounding, 1e-15 or so; nobody prints 1e-6.
+constexpr double kUnspokenDistance = 0.00000095367431640625;
 
 void rename_corners(Mesh& mesh, const std::vector<std::uint32_t>& new_names) {
   for (Triangle& t : mesh.triangles) {
     for (std::uint32_t& corner : t) corner = new_names[corner];
   }
-}
-
-// Lets triangles name the first of vertices within kMergeDistance, found in
-// the cells of that size around each.
-void merge_near_vertices(Mesh& mesh) {
-  VertexTable cells;
-  std::vector<std::uint32_t> first_in_cell;  // by name of the cell
-  std::vector<std::uint32_t> merged;
-  merged.reserve(mesh.vertices.size());
-  const auto find_near = [&](const Vec3& vertex, const Vec3& cell) {
-    for (int i = 0; i < 27; ++i) {
-      const Vec3 shift(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-      const auto found = cells.find(cell + shift);
-      if (!found) continue;
-      const std::uint32_t first = first_in_cell[*found];
-      if (glm::distance(mesh.vertices[first], vertex) <= kMergeDistance) {
-        return first;
-      }
-    }
-    return static_cast<std::uint32_t>(merged.size());
-  };
-  for (const Vec3& vertex : mesh.vertices) {
-    const Vec3 cell = glm::floor(vertex / kMergeDistance);
-    const std::uint32_t name = find_near(vertex, cell);
-    const bool is_first = name == merged.size();
-    if (is_first && cells.name(cell) == first_in_cell.size()) {
-      first_in_cell.push_back(name);
-    }
-    merged.push_back(name);
-  }
-  rename_corners(mesh, merged);
 }
 
 // A number drawn for the vertex, the same each time.
@@ -94,32 +68,6 @@ bool is_closed(const Mesh& mesh) {
     sum += cube(b - a) + cube(c - b) + cube(a - c);
   }
   return sum == 0;
-}
-
-std::size_t drop_degenerate(Mesh& mesh) {
-  return std::erase_if(mesh.triangles, [](const Triangle& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  });
-}
-
-// Keeps the first of triangles with the same corners in the same order.
-std::size_t drop_repeated(Mesh& mesh) {
-  std::vector<Triangle> turned = mesh.triangles;
-  for (Triangle& t : turned) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  }
-  std::vector<std::uint32_t> order(turned.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::tie(turned[a], a) < std::tie(turned[b], b);
-  });
-  std::vector<bool> is_repeated(turned.size());
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    is_repeated[order[i]] = turned[order[i]] == turned[order[i - 1]];
-  }
-  return std::erase_if(mesh.triangles, [&, i = 0u](const Triangle&) mutable {
-    return is_repeated[i++];
-  });
 }
 
 // Triangles that share a plain edge, and whether they run against each other.
@@ -221,8 +169,30 @@ std::vector<std::uint32_t> take_loop(OpenEdges& open, std::uint32_t start) {
   }
 }
 
+// Whether the loop lies in a plane, but for rounding.
+bool is_flat(const Mesh& mesh, const std::vector<std::uint32_t>& loop) {
+  constexpr double kFlatness = 1e-6;  // of its extent
+  const Vec3 origin = mesh.vertices[loop[0]];
+  Vec3 normal(0);  // by Newell
+  double extent = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec3 here = mesh.vertices[loop[i]] - origin;
+    const Vec3 next = mesh.vertices[loop[(i + 1) % loop.size()]] - origin;
+    normal += glm::cross(here, next);
+    extent = std::max(extent, glm::length(here));
+  }
+  const double slack = kFlatness * extent * glm::length(normal);
+  return std::ranges::all_of(loop, [&](std::uint32_t vertex) {
+    return std::abs(glm::dot(mesh.vertices[vertex] - origin, normal)) <= slack;
+  });
+}
+
 ClosedHole cap(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
-  add_face(mesh, loop);
+  if (is_flat(mesh, loop)) {
+    add_face(mesh, loop);
+  } else {
+    fill_hole(mesh, loop);
+  }
   ClosedHole hole{loop.size(), {}};
   for (const std::uint32_t i : loop) hole.box.add(mesh.vertices[i]);
   return hole;
@@ -245,12 +215,51 @@ std::vector<ClosedHole> close_holes(Mesh& mesh) {
 // What is needed where a mesh is not closed.
 void repair_open(Mesh& mesh, Repairs& repairs) {
   if (EdgeTable::of(mesh).is_open()) {
-    merge_near_vertices(mesh);
-    repairs.dropped_triangles += drop_degenerate(mesh);
+    const Weld weld = csg::weld(mesh, weld_tolerance(mesh));
+    repairs.joined_edges = weld.joined_edges;
+    repairs.join_distance = weld.distance;
+    repairs.dropped_triangles += weld.dropped_triangles;
+    repairs.repeated_triangles += weld.repeated_triangles;
   }
   repairs.turned_triangles = orient(mesh);
-  repairs.repeated_triangles = drop_repeated(mesh);
+  repairs.repeated_triangles += drop_repeated(mesh);
   repairs.closed_holes = close_holes(mesh);
+}
+
+// --- Volumes ----------------------------------------------------------------
+
+// Of what faces enclose, each part as often as they go around it, and of the
+// layers, in which it is once [mm³].
+struct Volumes {
+  double enclosed = 0;
+  double layered = 0;
+
+  bool are_alike() const {
+    constexpr double kLeastShare = 0.01;
+    return std::abs(enclosed - layered) <=
+           kLeastShare * std::max(std::abs(enclosed), layered);
+  }
+};
+
+// Estimates both from the same few sections.
+Volumes estimate_volumes(const Mesh& mesh) {
+  constexpr int kSections = 32;
+  Leaf leaf;
+  leaf.meshes.push_back(mesh);
+  leaf.box = bound_leaf(leaf, Affine(1.0));
+  const PlacedLeaf placed(leaf, Affine(1.0));
+  const double thickness = leaf.box.size().z / kSections;
+  Volumes volumes;
+  for (int i = 0; i < kSections; ++i) {
+    const Vec3 point(0, 0, leaf.box.low.z + (i + 0.5) * thickness);
+    const plane::Region section = whole_section(placed, Plane(point, {0, 0, 1}),
+                                                WindowSection::Side::kAbove);
+    volumes.enclosed += thickness * plane::area(section);
+    volumes.layered +=
+        thickness * plane::area(plane::from_contours(
+                        section.contours, plane::FillRule::kNonZero));
+  }
+  return volumes;
 }
 
 // --- Report -----------------------------------------------------------------
@@ -280,6 +289,12 @@ void report(const Repairs& repairs, std::size_t triangle_count,
         range, fmt::format("The given mesh has faces more than once: dropped "
                            "{} of {} triangles",
                            repairs.repeated_triangles, triangle_count));
+  }
+  if (repairs.joined_edges > 0 && repairs.join_distance > kUnspokenDistance) {
+    diagnostics.warning(
+        range, fmt::format("The given mesh is not welded: joined {} open edges "
+                           "within {:.2g} mm",
+                           repairs.joined_edges, repairs.join_distance));
   }
   const std::vector<ClosedHole>& holes = repairs.closed_holes;
   if (holes.empty()) return;
@@ -323,7 +338,19 @@ Repairs repair(Mesh& mesh, Vertices vertices) {
 void repair_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
                        Vertices vertices) {
   const std::size_t triangle_count = mesh.triangles.size();
-  report(repair(mesh, vertices), triangle_count, range, diagnostics);
+  const Repairs repairs = repair(mesh, vertices);
+  report(repairs, triangle_count, range, diagnostics);
+  if (!repairs.were_needed()) return;
+  const Volumes volumes = estimate_volumes(mesh);
+  if (volumes.are_alike()) return;
+  diagnostics.warning(
+      range,
+      fmt::format("The given mesh does not keep its volume: its faces enclose "
+                  "{:.4g} mm³, its layers have {:.4g} mm³",
+                  volumes.enclosed, volumes.layered),
+      {{range,
+        "some of its faces are inside out, or a hole was closed by "
+        "faces that cross others"}});
 }
 
 }  // namespace lamina::csg

@@ -4,15 +4,14 @@
 
 #include <glm/geometric.hpp>
 
+#include "csg/mesh/drop_triangles.h"
 #include "csg/mesh/manifold_cut.h"
 #include "csg/mesh/vertex_table.h"
 
 namespace lamina::csg {
 
 MeshFacts measure(Mesh mesh) {
-  std::erase_if(mesh.triangles, [](const auto& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  });
+  drop_degenerate(mesh);
   keep_named_points(mesh.vertices, mesh.triangles);
   MeshFacts facts;
   facts.vertices = mesh.vertices.size();

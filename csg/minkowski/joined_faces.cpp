@@ -11,7 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "csg/boundary/box_tree.h"
+#include "csg/mesh/box_tree.h"
 #include "csg/mesh/edge_table.h"
 #include "csg/mesh/vertex_table.h"
 #include "plane/region/triangulate.h"

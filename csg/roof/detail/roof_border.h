@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "csg/boundary/box_tree.h"
+#include "csg/mesh/box_tree.h"
 #include "csg/roof/detail/tracks.h"
 #include "plane/region/region.h"
 

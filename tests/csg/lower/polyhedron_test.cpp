@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/csg/lower/lower_fixture.h"
+#include "tests/support/text.h"
 
 namespace lamina::csg {
 namespace {
@@ -139,6 +140,27 @@ TEST_F(PolyhedronTest, PointsThatDifferByRoundingAreOne) {
   }
   EXPECT_NEAR(volume(points, faces), 24, 1e-10);
   EXPECT_TRUE(diagnostics.all().empty());
+}
+
+TEST_F(PolyhedronTest, FacesThatAreALittleApartAreJoined) {
+  for (const double gap : {1e-6, 1e-5, 1e-4}) {
+    std::vector<Vec3> points;
+    Faces faces;
+    for (const auto& face : kBoxFaces) {
+      faces.emplace_back();
+      const Vec3 shift =
+          gap * static_cast<double>(faces.size()) * Vec3(0.5, 1, -0.5);
+      for (const std::uint32_t i : face) {
+        faces.back().push_back(static_cast<std::uint32_t>(points.size()));
+        points.push_back(kBoxPoints[i] + shift);
+      }
+    }
+    EXPECT_NEAR(volume(points, faces), 24, 500 * gap);
+    ASSERT_FALSE(diagnostics.all().empty());
+    EXPECT_TRUE(support::has(diagnostics.all().back().message,
+                             "not welded: joined 24 open edges"))
+        << diagnostics.all().back().message;
+  }
 }
 
 TEST_F(PolyhedronTest, ConcaveFacesAreNotFilled) {

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "base/diagnostic.h"
 #include "csg/boundary/leaf_mesh.h"
 #include "tests/csg/lower/mesh_checks.h"
+#include "tests/support/text.h"
 
 namespace lamina::csg {
 namespace {
@@ -75,10 +79,63 @@ TEST(Repair, MakesNearVerticesOneWhereTheMeshIsOpenOtherwise) {
   EXPECT_TRUE(is_closed(mesh));
 }
 
-TEST(Repair, KeepsVerticesApartThatAreNotNear) {
+TEST(Repair, JoinsTrianglesThatAreALittleApart) {
   Mesh mesh = apart(tetrahedron(), 1e-5);
+  const Repairs repairs = repair(mesh);
+  EXPECT_EQ(repairs.joined_edges, 12U);
+  EXPECT_GE(repairs.join_distance, 1e-5 * std::sqrt(3) * (1 - 1e-6));
+  EXPECT_LE(repairs.join_distance, 3e-5 * std::sqrt(3) * (1 + 1e-6));
+  EXPECT_TRUE(repairs.closed_holes.empty());
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+  EXPECT_TRUE(is_closed(mesh));
+}
+
+TEST(Repair, KeepsTrianglesApartThatAreNotNear) {
+  Mesh mesh = apart(tetrahedron(), 1e-3);
   EXPECT_EQ(repair(mesh).closed_holes.size(), 4U);
   EXPECT_EQ(mesh.vertices.size(), 12U);
+}
+
+std::vector<std::string> warnings_of(Mesh mesh) {
+  Diagnostics diagnostics;
+  repair_and_report(mesh, {}, diagnostics);
+  std::vector<std::string> messages;
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    messages.push_back(diagnostic.message);
+  }
+  return messages;
+}
+
+TEST(Repair, SaysOnceOverWhatDistanceItJoined) {
+  Mesh mesh = apart(tetrahedron());
+  for (Vec3& vertex : mesh.vertices) vertex *= 10;
+  for (std::size_t i = 0; i < 3; ++i) mesh.vertices[i].x += 1.5e-4;
+  EXPECT_EQ(warnings_of(mesh),
+            std::vector<std::string>{"The given mesh is not welded: joined 6 "
+                                     "open edges within 0.00015 mm"});
+}
+
+TEST(Repair, SaysNothingOfWhatOpenScadWouldMerge) {
+  EXPECT_TRUE(warnings_of(apart(tetrahedron(), 1e-8)).empty());
+}
+
+// Two tetrahedra of one size, of which one is inside out: their volumes cancel,
+// while layers show both.
+TEST(Repair, WarnsWhereTheLayersHaveAnotherVolume) {
+  Mesh mesh = tetrahedron();
+  for (const auto& t : tetrahedron().triangles) {
+    mesh.triangles.push_back({t[0] + 4, t[2] + 4, t[1] + 4});
+  }
+  for (const Vec3& vertex : tetrahedron().vertices) {
+    mesh.vertices.push_back(vertex + Vec3(5, 0, 0));
+  }
+  EXPECT_TRUE(warnings_of(mesh).empty());  // closed: as the file says
+  mesh.triangles.pop_back();
+  const std::vector<std::string> warnings = warnings_of(mesh);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[0], "The given mesh is not closed!");
+  EXPECT_TRUE(support::has(warnings[1], "does not keep its volume"))
+      << warnings[1];
 }
 
 TEST(Repair, DropsTrianglesWithACornerTwice) {

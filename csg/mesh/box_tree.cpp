@@ -1,4 +1,4 @@
-#include "csg/boundary/box_tree.h"
+#include "csg/mesh/box_tree.h"
 
 #include <algorithm>
 #include <cstddef>
