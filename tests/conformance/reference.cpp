@@ -20,24 +20,10 @@ namespace fs = std::filesystem;
 
 using support::OpenScadResult;
 
-// The tree `root` as links in the cache, so that files can be put beside those
-// of a tree that is not ours.
-fs::path linked_tree(const fs::path& root) {
-  const fs::path links = support::cache_folder() / "links";
-  if (fs::exists(links)) return links;
-  const support::TemporaryFolder beside(support::cache_folder());
-  const auto result =
-      support::run_process({"cp", "-rs", root.string(), beside.file("links")});
-  if (result.status != 0) throw std::runtime_error(result.errors);
-  std::error_code another_was_first;
-  fs::rename(beside.file("links"), links, another_was_first);
-  return links;
-}
-
 // A design beside the link of `design` that extrudes its outline: the whole
 // text as a module, but for its `use` lines, which may stand outside only.
 fs::path write_extruder(const fs::path& root, const fs::path& design) {
-  const fs::path link = linked_tree(root) / design.lexically_relative(root);
+  const fs::path link = link_of(root, design);
   fs::path path =
       link.parent_path() / (link.stem().string() + ".extruded.scad");
   std::string uses;
@@ -71,6 +57,19 @@ ReferenceKind kind_of(const OpenScadResult& rendered) {
 }
 
 }  // namespace
+
+fs::path link_of(const fs::path& root, const fs::path& design) {
+  const fs::path links = support::cache_folder() / "links";
+  if (!fs::exists(links)) {
+    const support::TemporaryFolder beside(support::cache_folder());
+    const auto result = support::run_process(
+        {"cp", "-rs", root.string(), beside.file("links")});
+    if (result.status != 0) throw std::runtime_error(result.errors);
+    std::error_code another_was_first;
+    fs::rename(beside.file("links"), links, another_was_first);
+  }
+  return links / design.lexically_relative(root);
+}
 
 Reference render_reference(const fs::path& root, const fs::path& design) {
   OpenScadResult rendered = render(design);

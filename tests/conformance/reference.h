@@ -26,4 +26,9 @@ struct Reference {
 Reference render_reference(const std::filesystem::path& root,
                            const std::filesystem::path& design);
 
+// The design in a tree of links to all files below `root`, in the cache: there
+// files can be put beside those of a tree that is not ours.
+std::filesystem::path link_of(const std::filesystem::path& root,
+                              const std::filesystem::path& design);
+
 }  // namespace lamina::conformance

@@ -210,6 +210,32 @@ std::optional<double> read_decimate(const ModuleCall& call) {
   return std::nullopt;
 }
 
+// What 2021.01 accepts of such files, and passes over, is passed over where its
+// rules count. What it does not know at all always counts.
+bool is_center_ignored(const ImportParams& params) {
+  if (params.rules != Language::k2021) return false;
+  switch (params.format) {
+    case ImportFormat::kStl:
+    case ImportFormat::kOff:
+    case ImportFormat::kAmf:
+    case ImportFormat::k3mf:
+    case ImportFormat::kDxf:
+      return true;
+    default:
+      return false;
+  }
+}
+bool is_layer_ignored(const ImportParams& params) {
+  return params.rules == Language::k2021 && params.format == ImportFormat::kSvg;
+}
+
+void warn_of_ignored(std::string_view argument, const ModuleCall& call) {
+  call.warn(
+      "import() ignores {}, as OpenSCAD 2021.01 does of such files; with "
+      "--language 2026 it counts",
+      argument);
+}
+
 // What 2021.01 does not know stands in its text only where it was given.
 std::string import_text(const ImportParams& params, Frame& frame) {
   const std::string file = relative_quoted(std::string(params.path), frame);
@@ -272,13 +298,25 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   // The name is wrong in 2021.01, too.
   params.origin = read_origin(call["origin"], "linear_extrude", call);
   params.center = is_set(call["center"]);
+  if (params.center && is_center_ignored(params)) {
+    warn_of_ignored("center = true", call);
+    params.center = false;
+  }
   params.dpi = read_dpi(call["dpi"], call["origin"], call);
   const double scale = call["scale"].number_or_zero();
   params.scale = scale <= 0 ? 1 : scale;
   params.decimate = read_decimate(call);
   params.convexity = std::max(to_int(call["convexity"]), 1);
   params.facets = facets_of(call);
-  make_leaf<Import>(params, import_text(params, frame), call);
+  const std::string csg_text = import_text(params, frame);
+  if (params.layer && is_layer_ignored(params)) {
+    // Dumps of 2021.01 have an empty one for each import().
+    if (!params.layer->empty()) {
+      warn_of_ignored("layer = " + in_quotes(*params.layer), call);
+    }
+    params.layer.reset();
+  }
+  make_leaf<Import>(params, csg_text, call);
 }
 
 }  // namespace

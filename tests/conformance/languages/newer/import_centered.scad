@@ -1,1 +1,0 @@
-linear_extrude(1) import("corner.dxf", center = true);
