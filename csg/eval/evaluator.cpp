@@ -18,15 +18,17 @@ namespace {
 
 // The `$` variables that are there before the program begins.
 void bind_well_known(const EvaluateOptions& options, Interpreter& in) {
+  const bool is_2021 = options.language == Language::k2021;
   const double zero[] = {0, 0, 0};
+  const double aslant[] = {55, 0, 25};
   in.bind_dynamic(kFn, Value(0.0));
   in.bind_dynamic(kFa, Value(12.0));
   in.bind_dynamic(kFs, Value(2.0));
   in.bind_dynamic(kTime, Value(options.time));
   in.bind_dynamic(kPreview, Value(options.preview));
   in.bind_dynamic(kViewTranslation, Value::numbers(zero));
-  in.bind_dynamic(kViewRotation, Value::numbers(zero));
-  in.bind_dynamic(kViewDistance, Value(500.0));
+  in.bind_dynamic(kViewRotation, Value::numbers(is_2021 ? zero : aslant));
+  in.bind_dynamic(kViewDistance, Value(is_2021 ? 500.0 : 140.0));
   in.bind_dynamic(kViewField, Value(22.5));
 }
 

@@ -54,6 +54,13 @@ Value wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
   return wrong_type_of_new(code, frame, argument, expected, found);
 }
 
+void run_rest(const CallCode& code, std::size_t next, Frame& frame) {
+  if (frame.in.is_2021()) return;
+  for (std::size_t i = next; i < code.arguments.size(); ++i) {
+    run(code.arguments[i].value, frame);
+  }
+}
+
 Value newly_wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
                        Type expected, const Value& found) {
   if (frame.in.is_2021()) return Value();

@@ -32,6 +32,10 @@ Value wrong_type_of_new(const CallCode& code, Frame& frame,
                         std::size_t argument, Type expected,
                         const Value& found);
 
+// Runs the arguments from `next` on, where 2026 does so before it finds another
+// one wrong, which 2021.01 leaves out.
+void run_rest(const CallCode& code, std::size_t next, Frame& frame);
+
 inline Value argument(const CallCode& code, std::size_t i, Frame& frame) {
   return run(code.arguments[i].value, frame);
 }

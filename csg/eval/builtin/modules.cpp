@@ -1,6 +1,7 @@
 #include "csg/eval/builtin/modules.h"
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -153,6 +154,22 @@ bool for_each_index(const Value& which, SourceRange place, Frame& frame,
   }
 }
 
+// The argument that says which children; none where all are meant. 2021.01
+// takes the first for it, whatever its name, and no other counts.
+std::optional<Value> index_of_children(const BuiltinModuleCode& code,
+                                       Frame& frame) {
+  if (frame.in.is_2021()) {
+    if (code.arguments.empty()) return std::nullopt;
+    return run(code.arguments[0].value, frame);
+  }
+  const ModuleCall call(code, frame);
+  const bool is_given =
+      std::ranges::any_of(code.plan->bound, [](const BoundArgument& bound) {
+        return bound.target.kind == Target::Kind::kSlot;
+      });
+  return is_given ? std::optional(call["index"]) : std::nullopt;
+}
+
 // In 2021.01 one child alone is not grouped, and the children see what was
 // assigned before the call; since then each children() assigns it anew.
 void children(const BuiltinModuleCode& code, Frame& frame) {
@@ -160,13 +177,14 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
   if (frame.children == nullptr) return;  // not inside a module
   const std::size_t mark = frame.in.node_mark();
   const bool is_2021 = frame.in.is_2021();
-  if (code.arguments.empty()) {
+  const std::optional<Value> index = index_of_children(code, frame);
+  if (!index) {
     if (!is_2021) run_assignments(*frame.children, *frame.children_frame);
     run_statements(*frame.children, *frame.children_frame);
     frame.in.make_node(Group{}, code, mark);
     return;
   }
-  const Value which = run(code.arguments[0].value, frame);
+  const Value& which = *index;
   std::vector<std::size_t> chosen;
   const bool is_fine = for_each_index(which, code.range, frame, [&](int n) {
     if (!has_child(n, code.range, frame)) return;
@@ -248,9 +266,10 @@ void add_rows(const std::vector<BuiltinModuleRow>& rows, Language language,
 
 Table make_table(Language language) {
   Table made;
-  add_rows(
-      {{"echo", echo, {}}, {"children", children, {}}, {"child", child, {}}},
-      language, made);
+  add_rows({{"echo", echo, {}},
+            {"children", children, {}, {}, {}, {"index"}},
+            {"child", child, {}}},
+           language, made);
   add_rows(primitive_rows(), language, made);
   add_rows(operation_rows(), language, made);
   add_rows(transform_rows(), language, made);

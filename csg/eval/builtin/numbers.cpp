@@ -81,6 +81,7 @@ Value builtin_log(const CallCode& code, Frame& frame) {
   if (n != 1 && n != 2) return wrong_count(code, frame, "2");
   const Value first = argument(code, 0, frame);
   if (!first.is_number()) {
+    run_rest(code, 1, frame);
     return wrong_type(code, frame, 0, Type::kNumber, first);
   }
   double base = 10.0;
@@ -136,12 +137,14 @@ Value extreme(const CallCode& code, Frame& frame) {
                   : *std::min_element(values.begin(), values.end(), is_less);
   }
   if (!first.is_number()) {
+    run_rest(code, 1, frame);
     return wrong_type(code, frame, 0, Type::kNumber, first);
   }
   double result = first.as_number();
   for (std::size_t i = 1; i < n; ++i) {
     const Value value = argument(code, i, frame);
     if (!value.is_number()) {
+      run_rest(code, i + 1, frame);
       return wrong_type(code, frame, i, Type::kNumber, value);
     }
     const double x = value.as_number();
@@ -194,17 +197,20 @@ Value builtin_rands(const CallCode& code, Frame& frame) {
   constexpr double kHalfOfAll = std::numeric_limits<double>::max() / 2;
   const Value first = argument(code, 0, frame);
   if (!first.is_number()) {
+    run_rest(code, 1, frame);
     return newly_wrong_type(code, frame, 0, Type::kNumber, first);
   }
   double least = finite_or(first.as_number(), -kHalfOfAll, "min", code, frame);
   const Value second = argument(code, 1, frame);
   if (!second.is_number()) {
+    run_rest(code, 2, frame);
     return newly_wrong_type(code, frame, 1, Type::kNumber, second);
   }
   double most = finite_or(second.as_number(), kHalfOfAll, "max", code, frame);
   if (most < least) std::swap(least, most);
   const Value third = argument(code, 2, frame);
   if (!third.is_number()) {
+    run_rest(code, 3, frame);
     return newly_wrong_type(code, frame, 2, Type::kNumber, third);
   }
   double count = std::fabs(third.as_number());

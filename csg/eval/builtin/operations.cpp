@@ -23,10 +23,11 @@ namespace {
 
 // --- Booleans ---------------------------------------------------------------
 
-// Runs a module that does not even evaluate its arguments.
+// Runs a module without parameters; 2021.01 does not even evaluate arguments.
 template <typename Op>
 void plain_operation(const BuiltinModuleCode& code, Frame& frame) {
   const std::size_t mark = frame.in.node_mark();
+  if (!frame.in.is_2021()) const ModuleCall call(code, frame);
   run_block(*code.block, frame);
   frame.in.make_node(Op{}, code, mark);
 }

@@ -89,6 +89,7 @@ Value builtin_lookup(const CallCode& code, Frame& frame) {
   if (code.arguments.size() != 2) return wrong_count(code, frame, "2");
   const Value key = argument(code, 0, frame);
   if (!key.is_number() && !frame.in.is_2021()) {
+    run_rest(code, 1, frame);
     return wrong_type(code, frame, 0, Type::kNumber, key);
   }
   if (!key.is_number() || !std::isfinite(key.as_number())) {

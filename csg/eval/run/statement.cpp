@@ -114,9 +114,12 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
       Value(static_cast<double>(code.block->statements.size()));
   {
     const ModuleCall call(code, in);
-    in.bind_module_depth();
+    // In 2021 arguments see `$parent_modules` of the call, in 2026 that of the
+    // caller.
+    if (in.is_2021()) in.bind_module_depth();
     pass_arguments(*code.plan, module.parameters, code.arguments, code.range,
                    frame, callee);
+    if (!in.is_2021()) in.bind_module_depth();
     run_module_body(module, callee);
   }
   in.make_node(Group{}, code, mark);

@@ -201,6 +201,16 @@ TEST(Languages, AreNamedWhereAVersionIsAskedForInVain) {
               std::string::npos);
 }
 
+TEST(BothLanguages, TakeComprehensionsInParentheses) {
+  const std::string text =
+      "echo([(for (i = [0:2]) i)], [(each [1, 2]), (if (true) 5)],\n"
+      "     [(1), (2)], [(1):(2)], [(let (a = 2) a):3]);\n";
+  for (const Language language : {Language::k2021, Language::k2026}) {
+    EXPECT_EQ(echo(text, language),
+              "ECHO: [0, 1, 2], [1, 2, 5], [1, 2], [1 : 1 : 2], [2 : 1 : 3]\n");
+  }
+}
+
 // --- Limits ------------------------------------------------------------------
 
 TEST(BothLanguages, EndRecursionsThatPrintWhatTheyNest) {

@@ -1,0 +1,1 @@
+echo($vpd, $vpr, $vpt, $vpf);
