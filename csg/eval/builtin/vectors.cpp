@@ -13,17 +13,17 @@ namespace lamina::csg {
 namespace {
 
 Value builtin_concat(const CallCode& code, Frame& frame) {
-  if (code.arguments.empty()) return Value::vector({});
-  Value result = argument(code, 0, frame);
-  if (!result.is_vector()) result = Value::vector({&result, 1});
-  for (std::size_t i = 1; i < code.arguments.size(); ++i) {
+  VectorGrower grower;
+  for (const WrittenArgument& written : code.arguments) {
     Value spill;
-    const Value& more = look(code.arguments[i].value, frame, spill);
-    result = more.is_vector()
-                 ? result.with_appended(more.as_vector())
-                 : result.with_appended(std::span<const Value>(&more, 1));
+    const Value& more = look(written.value, frame, spill);
+    if (more.is_vector()) {
+      grower.push_all(more);
+    } else {
+      grower.push(more);
+    }
   }
-  return result;
+  return grower.finish();
 }
 
 Value builtin_norm(const CallCode& code, Frame& frame) {

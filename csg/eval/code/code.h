@@ -161,7 +161,7 @@ struct RangeCode : Expression {
 
 // An element of a vector or comprehension. It emits any number of values.
 struct Element {
-  using Emit = void (*)(const Element&, Frame&, VectorBuilder&);
+  using Emit = void (*)(const Element&, Frame&, VectorGrower&);
   Emit emit = nullptr;
   const Expression* value = nullptr;  // of a plain one
   SourceRange range;

@@ -9,20 +9,20 @@ namespace lamina::csg {
 
 Value run_vector(const Expression& expression, Frame& frame) {
   const auto& code = as<VectorCode>(expression);
-  VectorBuilder out(code.elements.size());
+  VectorGrower out(code.elements.size());
   for (const Element* element : code.elements) {
     element->emit(*element, frame, out);
   }
   return out.finish();
 }
 
-void emit_value(const Element& element, Frame& frame, VectorBuilder& out) {
-  out.push_made([&] { return run(element.value, frame); });
+void emit_value(const Element& element, Frame& frame, VectorGrower& out) {
+  out.end().push_made([&] { return run(element.value, frame); });
 }
 
 namespace {
 
-void emit(const Element& element, Frame& frame, VectorBuilder& out) {
+void emit(const Element& element, Frame& frame, VectorGrower& out) {
   if (element.emit == emit_value) {
     emit_value(element, frame, out);
   } else {
@@ -49,13 +49,13 @@ void warn_of_long_range(std::uint32_t count, SourceRange place, Frame& frame) {
            count));
 }
 
-void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {
+void emit_for(const Element& element, Frame& frame, VectorGrower& out) {
   const auto& code = static_cast<const ForElement&>(element);
   const Value values = run(code.binding.value, frame);
   const Target& target = code.binding.target;
   prepare(target, frame);
   if (code.body->emit == emit_value) {
-    out.make_room(count_values(values));
+    out.end().make_room(count_values(values));
   }
   const DynamicScope scope(frame.in);
   for_each_value(values, kMostElements, element.range, frame, [&](Value value) {
@@ -66,7 +66,7 @@ void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {
   });
 }
 
-void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out) {
+void emit_for_c(const Element& element, Frame& frame, VectorGrower& out) {
   const auto& code = static_cast<const ForCElement&>(element);
   const DynamicScope scope(frame.in);
   for (const auto& [from, to] : code.copies) {
@@ -92,23 +92,23 @@ void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out) {
   }
 }
 
-void emit_if(const Element& element, Frame& frame, VectorBuilder& out) {
+void emit_if(const Element& element, Frame& frame, VectorGrower& out) {
   const auto& code = static_cast<const IfElement&>(element);
   const Element* branch =
       is_true(code.condition, frame) ? code.if_true : code.if_false;
   if (branch != nullptr) emit(*branch, frame, out);
 }
 
-void emit_each(const Element& element, Frame& frame, VectorBuilder& out) {
+void emit_each(const Element& element, Frame& frame, VectorGrower& out) {
   const auto& code = static_cast<const EachElement&>(element);
   const auto spread = [&](const Value& value) {
     if (value.is_vector()) {
-      out.push_all(value.as_vector());
+      out.push_all(value);
     } else if (value.is_object()) {
       out.push(value);  // `for` sees its keys, `each` the object
     } else {
       for_each_value(value, kMostElements, element.range, frame,
-                     [&](Value one) { out.push(std::move(one)); });
+                     [&](Value one) { out.end().push(std::move(one)); });
     }
   };
   if (code.body->emit == emit_value) {
@@ -116,12 +116,13 @@ void emit_each(const Element& element, Frame& frame, VectorBuilder& out) {
     spread(look(code.body->value, frame, spill));
     return;
   }
-  VectorBuilder inner;
+  VectorGrower inner;
   emit(*code.body, frame, inner);
-  for (const Value& value : inner.values()) spread(value);
+  const Value values = inner.finish();
+  for (const Value& value : values.as_vector()) spread(value);
 }
 
-void emit_let(const Element& element, Frame& frame, VectorBuilder& out) {
+void emit_let(const Element& element, Frame& frame, VectorGrower& out) {
   const auto& code = static_cast<const LetElement&>(element);
   const DynamicScope scope(frame.in);
   run_bindings(code.bindings, frame);

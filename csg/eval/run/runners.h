@@ -41,12 +41,12 @@ Value run_call_unknown(const Expression& expression, Frame& frame);
 // A call of what may be a function value.
 Value run_call_value(const Expression& expression, Frame& frame);
 
-void emit_value(const Element& element, Frame& frame, VectorBuilder& out);
-void emit_for(const Element& element, Frame& frame, VectorBuilder& out);
-void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out);
-void emit_if(const Element& element, Frame& frame, VectorBuilder& out);
-void emit_each(const Element& element, Frame& frame, VectorBuilder& out);
-void emit_let(const Element& element, Frame& frame, VectorBuilder& out);
+void emit_value(const Element& element, Frame& frame, VectorGrower& out);
+void emit_for(const Element& element, Frame& frame, VectorGrower& out);
+void emit_for_c(const Element& element, Frame& frame, VectorGrower& out);
+void emit_if(const Element& element, Frame& frame, VectorGrower& out);
+void emit_each(const Element& element, Frame& frame, VectorGrower& out);
+void emit_let(const Element& element, Frame& frame, VectorGrower& out);
 
 void run_user_module(const InstantiationCode& instantiation, Frame& frame);
 void run_builtin_module(const InstantiationCode& instantiation, Frame& frame);

@@ -81,8 +81,8 @@ LookupTables::Neighbours LookupTables::neighbours(const Value& table,
   }
   const auto known =
       std::find_if(known_.begin(), known_.end(), [&](const Known& other) {
-        return other.table.is_identical(table) &&
-               other.table.as_vector().size() == rows.size();
+        const std::span<const Value> others = other.table.as_vector();
+        return others.data() == rows.data() && others.size() == rows.size();
       });
   if (known == known_.end()) {
     if (known_.size() == kMostKnown) known_.pop_back();

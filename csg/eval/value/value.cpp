@@ -204,31 +204,72 @@ Value Value::character(std::uint32_t i) const {
 
 // --- Appending ------------------------------------------------------------
 
-// A string or vector of a buffer's first elements and more behind them. Where
-// `length` elements are all that the buffer holds and it has room, it is
-// shared.
-template <typename Buffer, typename Elements>
-Value Value::append(Buffer& old, Elements more, std::size_t long_size) const {
-  if (more.empty()) return *this;
-  const std::size_t needed = length_ + more.size();
-  Buffer* buffer = &old;
+// Where a value ends where the used part of its buffer does, and there is room,
+// what it grows by is written there, and the buffer is shared.
+
+Value Value::with_appended(std::string_view text) const {
+  if (text.empty()) return *this;
+  StringBuffer& old = string_buffer();
+  const std::size_t needed = length_ + text.size();
+  StringBuffer* buffer = &old;
   if (length_ != old.used || needed > old.capacity) {
-    buffer = allocate<Buffer>(grown(needed, long_size));
-    copy_values(Elements(old.data(), length_), buffer->data());
+    buffer = allocate<StringBuffer>(grown(needed, kLongString));
+    copy_values(as_string(), buffer->data());
   } else {
     ++old.references;
   }
-  copy_values(more, buffer->data() + length_);
+  copy_values(text, buffer->data() + length_);
   buffer->used = static_cast<std::uint32_t>(needed);
-  return adopt(type_, buffer, buffer->used);
-}
-
-Value Value::with_appended(std::string_view text) const {
-  return append(string_buffer(), text, kLongString);
+  return adopt(Type::kString, buffer, buffer->used);
 }
 
 Value Value::with_appended(std::span<const Value> elements) const {
-  return append(vector_buffer(), elements, kLongVector);
+  if (elements.empty()) return *this;
+  VectorBuffer& old = vector_buffer();
+  const std::size_t needed = length_ + elements.size();
+  std::uint32_t begin = start();
+  VectorBuffer* buffer = &old;
+  if (begin + length_ != old.used || begin + needed > old.capacity) {
+    const std::size_t size = grown(needed, kLongVector);
+    // What has grown at its front may do so again.
+    begin = old.first > 0 ? room_in_front(size - needed) : 0;
+    buffer = allocate<VectorBuffer>(begin + size);
+    buffer->first = begin;
+    copy_values(as_vector(), buffer->data() + begin);
+  } else {
+    ++old.references;
+  }
+  copy_values(elements, buffer->data() + begin + length_);
+  buffer->used = static_cast<std::uint32_t>(begin + needed);
+  return adopt(Type::kVector, buffer, static_cast<std::uint32_t>(needed),
+               begin);
+}
+
+Value Value::with_prepended(std::span<const Value> elements) const {
+  if (elements.empty()) return *this;
+  VectorBuffer& old = vector_buffer();
+  const std::size_t needed = length_ + elements.size();
+  std::size_t begin = start();
+  VectorBuffer* buffer = &old;
+  if (begin != old.first || elements.size() > begin) {
+    const std::size_t size = grown(needed, kLongVector);
+    begin = elements.size() + room_in_front(size - needed);
+    // As much room behind it: some vectors grow at both ends.
+    buffer = allocate<VectorBuffer>(begin - elements.size() + size);
+    copy_values(as_vector(), buffer->data() + begin);
+    buffer->used = static_cast<std::uint32_t>(begin + length_);
+  } else {
+    ++old.references;
+  }
+  begin -= elements.size();
+  copy_values(elements, buffer->data() + begin);
+  buffer->first = static_cast<std::uint32_t>(begin);
+  return adopt(Type::kVector, buffer, static_cast<std::uint32_t>(needed),
+               buffer->first);
+}
+
+std::uint32_t Value::room_in_front(std::size_t wanted) {
+  return static_cast<std::uint32_t>(std::min(wanted, std::size_t{kMostStart}));
 }
 
 // --- Freeing --------------------------------------------------------------
@@ -241,7 +282,7 @@ void Value::join(VectorBuffer*& dying) {
     Value values = std::move(members->values);
     delete members;
     if (--values.payload_.counted->references == 0) values.join(dying);
-    values.type_ = Type::kUndef;
+    values.head_ = head_of(Type::kUndef);
     return;
   }
   VectorBuffer& buffer = vector_buffer();
@@ -250,7 +291,7 @@ void Value::join(VectorBuffer*& dying) {
 }
 
 void Value::destroy() {
-  switch (type_) {
+  switch (type()) {
     case Type::kString: {
       StringBuffer& buffer = string_buffer();
       delete buffer.characters;
@@ -276,7 +317,7 @@ void Value::destroy() {
   while (dying != nullptr) {
     VectorBuffer* buffer = dying;
     dying = buffer->next_dying;
-    for (std::uint32_t i = 0; i < buffer->used; ++i) {
+    for (std::uint32_t i = buffer->first; i < buffer->used; ++i) {
       Value& value = buffer->data()[i];
       if (!value.is_counted()) continue;
       if (--value.payload_.counted->references != 0) continue;
@@ -327,6 +368,27 @@ Value VectorBuilder::finish() {
   buffer_ = nullptr;
   size_ = capacity_ = 0;
   return result;
+}
+
+// --- VectorGrower ---------------------------------------------------------
+
+void VectorGrower::push_all(const Value& vector) {
+  const std::span<const Value> elements = vector.as_vector();
+  const std::size_t before = base_.elements().size() + rest_.size();
+  if (elements.size() < kLongVector || elements.size() <= before) {
+    rest_.push_all(elements);
+    return;
+  }
+  const Value rest = rest_.finish();
+  base_ =
+      vector.with_prepended(rest.as_vector()).with_prepended(base_.elements());
+}
+
+Value VectorGrower::finish() {
+  if (!base_.is_vector()) return rest_.finish();
+  const Value base = std::move(base_);
+  const Value rest = rest_.finish();
+  return base.with_appended(rest.as_vector());
 }
 
 }  // namespace lamina::csg

@@ -9,7 +9,9 @@
 // The length of a string or vector stands in the Value, not in the buffer. So a
 // longer string may share the buffer of its own beginning: appending where the
 // used part of the buffer ends writes behind it, which no other holder can see.
-// `concat(v, [x])` and `str(s, c)` in a loop cost amortised O(1).
+// Where a vector begins in its buffer stands there, too, so that it grows at
+// its front in the same way. `str(s, c)`, `concat(v, [x])`, `[x, each v]` and
+// their like cost amortised O(1) in a loop.
 //
 // Freeing never recurses: a vector nested a million deep dies in a loop.
 
@@ -75,6 +77,7 @@ struct StringBuffer : Counted {
 
 struct VectorBuffer : Counted {
   std::uint32_t capacity = 0;
+  std::uint32_t first = 0;  // elements [first, used) are there
   std::uint32_t used = 0;
   VectorBuffer* next_dying = nullptr;
 
@@ -103,22 +106,22 @@ struct Members;  // of an object: csg/eval/value/object.h
 class Value {
  public:
   Value() = default;  // undef
-  explicit Value(double number) : type_(Type::kNumber) {
+  explicit Value(double number) : head_(head_of(Type::kNumber)) {
     payload_.number = number;
   }
-  explicit Value(bool boolean) : type_(Type::kBool) {
+  explicit Value(bool boolean) : head_(head_of(Type::kBool)) {
     payload_.boolean = boolean;
   }
   template <typename T>
   explicit Value(T*) = delete;  // no pointer is a boolean
 
   Value(const Value& other)
-      : type_(other.type_), length_(other.length_), payload_(other.payload_) {
+      : head_(other.head_), length_(other.length_), payload_(other.payload_) {
     if (is_counted()) ++payload_.counted->references;
   }
   Value(Value&& other) noexcept
-      : type_(other.type_), length_(other.length_), payload_(other.payload_) {
-    other.type_ = Type::kUndef;
+      : head_(other.head_), length_(other.length_), payload_(other.payload_) {
+    other.head_ = head_of(Type::kUndef);
   }
   Value& operator=(const Value& other) {
     Value copy(other);
@@ -127,24 +130,24 @@ class Value {
   }
   Value& operator=(Value&& other) noexcept {
     const Value old(std::move(*this));
-    type_ = other.type_;
+    head_ = other.head_;
     length_ = other.length_;
     payload_ = other.payload_;
-    other.type_ = Type::kUndef;
+    other.head_ = head_of(Type::kUndef);
     return *this;
   }
   ~Value() {
     if (is_counted()) release();
   }
   void swap(Value& other) noexcept {
-    std::swap(type_, other.type_);
+    std::swap(head_, other.head_);
     std::swap(length_, other.length_);
     std::swap(payload_, other.payload_);
   }
 
   static Value unset() {
     Value value;
-    value.type_ = Type::kUnset;
+    value.head_ = head_of(Type::kUnset);
     return value;
   }
   static Value string(std::string_view text);
@@ -152,24 +155,27 @@ class Value {
   static Value numbers(std::span<const double> elements);
   static Value range(double begin, double step, double end);
   // Takes over the caller's count.
-  static Value adopt(Type type, Counted* counted, std::uint32_t length) {
+  //
+  // start  of a vector: where in its buffer it begins
+  static Value adopt(Type type, Counted* counted, std::uint32_t length,
+                     std::uint32_t start = 0) {
     Value value;
-    value.type_ = type;
+    value.head_ = head_of(type) | start << kStartShift;
     value.length_ = length;
     value.payload_.counted = counted;
     return value;
   }
 
-  Type type() const { return type_; }
-  bool is_unset() const { return type_ == Type::kUnset; }
-  bool is_undef() const { return type_ <= Type::kUndef; }
-  bool is_bool() const { return type_ == Type::kBool; }
-  bool is_number() const { return type_ == Type::kNumber; }
-  bool is_string() const { return type_ == Type::kString; }
-  bool is_vector() const { return type_ == Type::kVector; }
-  bool is_range() const { return type_ == Type::kRange; }
-  bool is_function() const { return type_ == Type::kFunction; }
-  bool is_object() const { return type_ == Type::kObject; }
+  Type type() const { return static_cast<Type>(head_ & kTypeMask); }
+  bool is_unset() const { return type() == Type::kUnset; }
+  bool is_undef() const { return type() <= Type::kUndef; }
+  bool is_bool() const { return type() == Type::kBool; }
+  bool is_number() const { return type() == Type::kNumber; }
+  bool is_string() const { return type() == Type::kString; }
+  bool is_vector() const { return type() == Type::kVector; }
+  bool is_range() const { return type() == Type::kRange; }
+  bool is_function() const { return type() == Type::kFunction; }
+  bool is_object() const { return type() == Type::kObject; }
 
   // Only for a value of that type.
   double as_number() const { return payload_.number; }
@@ -179,8 +185,9 @@ class Value {
             length_};
   }
   std::span<const Value> as_vector() const {
-    return {static_cast<const VectorBuffer*>(payload_.counted)->data(),
-            length_};
+    return {
+        static_cast<const VectorBuffer*>(payload_.counted)->data() + start(),
+        length_};
   }
   const Range& as_range() const {
     return *static_cast<const Range*>(payload_.counted);
@@ -193,7 +200,7 @@ class Value {
   // any other value.
   std::span<Value> own_elements() {
     if (!is_vector() || payload_.counted->references != 1) return {};
-    return {vector_buffer().data(), length_};
+    return {vector_buffer().data() + start(), length_};
   }
   // Whether it is a vector that another value holds, too.
   bool is_shared_vector() const {
@@ -208,7 +215,7 @@ class Value {
 
   // What `if` takes it for.
   bool is_true() const {
-    switch (type_) {
+    switch (type()) {
       case Type::kBool:
         return payload_.boolean;
       case Type::kNumber:
@@ -218,7 +225,7 @@ class Value {
       case Type::kObject:
         return length_ != 0;
       default:
-        return type_ == Type::kRange || type_ == Type::kFunction;
+        return is_range() || is_function();
     }
   }
 
@@ -232,6 +239,8 @@ class Value {
   // This string or vector with more behind it; may share the buffer.
   Value with_appended(std::string_view text) const;
   Value with_appended(std::span<const Value> elements) const;
+  // This vector with more in front of it; may share the buffer.
+  Value with_prepended(std::span<const Value> elements) const;
 
   // Whether both share one buffer or function (functions compare so).
   bool is_identical(const Value& other) const {
@@ -239,12 +248,10 @@ class Value {
   }
 
  private:
-  bool is_counted() const { return type_ >= Type::kString; }
+  bool is_counted() const { return type() >= Type::kString; }
   void release() {
     if (--payload_.counted->references == 0) destroy();
   }
-  template <typename Buffer, typename Elements>
-  Value append(Buffer& old, Elements more, std::size_t long_size) const;
   void destroy();
   void join(VectorBuffer*& dying);
   StringBuffer& string_buffer() const {
@@ -260,7 +267,19 @@ class Value {
     Counted* counted;
   };
 
-  Type type_ = Type::kUndef;
+  static constexpr std::uint32_t kTypeMask = 0xff;
+  static constexpr std::uint32_t kStartShift = 8;
+  // Where a vector can begin at most in its buffer.
+  static constexpr std::uint32_t kMostStart = 0xffffffff >> kStartShift;
+
+  static constexpr std::uint32_t head_of(Type type) {
+    return static_cast<std::uint32_t>(type);
+  }
+  std::uint32_t start() const { return head_ >> kStartShift; }
+  static std::uint32_t room_in_front(std::size_t wanted);
+
+  // The type, and where a vector begins in its buffer.
+  std::uint32_t head_ = head_of(Type::kUndef);
   // Bytes of a string, elements of a vector, members of an object.
   std::uint32_t length_ = 0;
   Payload payload_ = {.counted = nullptr};
@@ -354,6 +373,26 @@ class VectorBuilder {
   VectorBuffer* buffer_ = nullptr;
   std::uint32_t size_ = 0;
   std::uint32_t capacity_ = 0;
+};
+
+// Collects the elements of a vector that may be a long one with a few more at
+// its ends: the longest that comes whole is not copied.
+class VectorGrower {
+ public:
+  VectorGrower() = default;
+  explicit VectorGrower(std::size_t capacity) : rest_(capacity) {}
+
+  void push(const Value& value) { rest_.push(value); }
+  void push_all(const Value& vector);
+  // What is added here comes last.
+  VectorBuilder& end() { return rest_; }
+
+  // Leaves the grower empty.
+  Value finish();
+
+ private:
+  Value base_;  // what comes first; undef: nothing
+  VectorBuilder rest_;
 };
 
 }  // namespace lamina::csg

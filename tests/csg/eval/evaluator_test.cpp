@@ -90,12 +90,16 @@ TEST(Evaluate, ResultsShareWhatOperandsShare) {
 }
 
 TEST(Evaluate, BuildsListsAndStringsInLinearTime) {
-  const std::string list =
-      "function f(n, v = []) = n == 0 ? v : f(n - 1, concat(v, [n]));\n";
+  const auto list = [](const std::string& grown) {
+    return "function f(n, v = []) = n == 0 ? v : f(n - 1, " + grown + ");\n";
+  };
   const std::string string =
       "function f(n, s = \"\") = n == 0 ? s : f(n - 1, str(s, "
       "\"abcdefgh\"));\n";
-  for (const std::string& program : {list, string}) {
+  for (const std::string& program :
+       {list("concat(v, [n])"), list("concat(n, v)"), list("[n, each v]"),
+        list("[if (n > 0) each v, n]"),
+        list("n % 2 == 0 ? [each v, n] : concat([n], v)"), string}) {
     const std::clock_t few = ticks_for(program + "echo(len(f(20000)));\n");
     const std::clock_t many = ticks_for(program + "echo(len(f(160000)));\n");
     // Eight times as long takes about eight times the time. Quadratic copying

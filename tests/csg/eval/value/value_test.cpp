@@ -55,6 +55,82 @@ TEST(Value, AppendingElementsObeysTheSameLaw) {
   }
 }
 
+TEST(Value, GrowingAtEitherEndLeavesTheOldValueAsItWas) {
+  std::mt19937 random(11);
+  std::vector<Value> values = {Value::vector({})};
+  std::vector<std::vector<double>> truth = {{}};
+  for (int step = 0; step < 4000; ++step) {
+    // Mostly the last one, so that buffers are shared.
+    const std::size_t from =
+        random() % 4 > 0 ? values.size() - 1 : random() % values.size();
+    std::vector<Value> more;
+    std::vector<double> numbers;
+    for (std::uint32_t n = random() % 4; n > 0; --n) {
+      numbers.push_back(step + 0.1 * n);
+      more.emplace_back(numbers.back());
+    }
+    std::vector<double> expected =
+        truth[from].size() > 300 ? std::vector<double>() : truth[from];
+    const Value old = expected.empty() ? Value::vector({}) : values[from];
+    if (random() % 2 == 0) {
+      values.push_back(old.with_prepended(more));
+      expected.insert(expected.begin(), numbers.begin(), numbers.end());
+    } else {
+      values.push_back(old.with_appended(more));
+      expected.insert(expected.end(), numbers.begin(), numbers.end());
+    }
+    truth.push_back(expected);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::span<const Value> elements = values[i].as_vector();
+    ASSERT_EQ(elements.size(), truth[i].size());
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      ASSERT_EQ(elements[k].as_number(), truth[i][k]);
+    }
+  }
+}
+
+// As many elements are copied in all as a doubling buffer copies.
+TEST(Value, GrowingAtBothEndsCopiesSeldom) {
+  for (const int back_every : {0, 1, 2, 5}) {
+    Value vector = Value::vector({});
+    std::size_t copied = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Value one(static_cast<double>(i));
+      const bool is_at_back = back_every > 0 && i % back_every == 0;
+      const Value grown = is_at_back ? vector.with_appended({&one, 1})
+                                     : vector.with_prepended({&one, 1});
+      if (!grown.is_identical(vector)) copied += vector.as_vector().size();
+      vector = grown;
+    }
+    EXPECT_LT(copied, 100000U) << back_every;
+  }
+}
+
+TEST(VectorGrower, HasItsElementsInOrder) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 500; ++round) {
+    VectorGrower grower;
+    std::vector<double> expected;
+    for (int piece = 0; piece < 6; ++piece) {
+      std::vector<double> numbers(random() % 40);
+      for (double& number : numbers)
+        number = static_cast<double>(random() % 1000);
+      expected.insert(expected.end(), numbers.begin(), numbers.end());
+      if (random() % 3 == 0) {
+        for (const double number : numbers) grower.push(Value(number));
+      } else {
+        grower.push_all(Value::numbers(numbers));
+      }
+    }
+    const Value vector = grower.finish();
+    ASSERT_EQ(vector.as_vector().size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(vector.as_vector()[i].as_number(), expected[i]);
+    }
+  }
+}
+
 // Characters by a walk from the beginning.
 std::vector<std::string> characters(const std::string& text) {
   std::vector<std::string> all;
