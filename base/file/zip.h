@@ -36,17 +36,20 @@ class ZipArchive {
   std::optional<std::string> read(const std::string& name) const;
 
  private:
-  // Where the directory lists an entry, in words of minizip.
-  struct Place {
-    std::uint64_t byte = 0;
-    std::uint64_t number = 0;
+  // What the directory says of an entry.
+  struct Entry {
+    std::uint64_t begin = 0;  // of its header
+    std::uint64_t packed_bytes = 0;
+    std::uint32_t crc = 0;
+    std::uint16_t flags = 0;
+    std::uint16_t method = 0;
   };
 
   explicit ZipArchive(std::string_view bytes) : bytes_(bytes) {}
 
   std::string_view bytes_;
   std::vector<std::string> names_;
-  std::map<std::string, Place> places_;
+  std::map<std::string, Entry> entries_;
   double unpacked_bytes_ = 0;
 };
 

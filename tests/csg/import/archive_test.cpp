@@ -1,9 +1,11 @@
 // AMF and 3MF: XML, mostly zipped.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "base/file/zip.h"
 #include "csg/import/mesh_file.h"
@@ -137,6 +139,69 @@ TEST(ZipArchive, ReadsTheFirstOfEqualNamesAndCountsAll) {
   EXPECT_EQ(archive.unpacked_bytes(), 8);
 }
 
+std::string little_endian(std::uint64_t number, int bytes) {
+  std::string text;
+  for (; bytes > 0; --bytes, number >>= 8) text += static_cast<char>(number);
+  return text;
+}
+
+// An archive of one entry, stored, whose sizes and places are of 64 bits, as
+// lib3mf writes them.
+std::string make_wide_zip(const std::string& name, const std::string& contents,
+                          std::uint16_t flags = 0, std::uint16_t method = 0) {
+  const auto crc = crc32_z(0, reinterpret_cast<const Bytef*>(contents.data()),
+                           contents.size());
+  const std::string elsewhere(4, '\xff');
+  const std::string sizes =
+      little_endian(contents.size(), 8) + little_endian(contents.size(), 8);
+  const std::string middle = little_endian(45, 2) + little_endian(flags, 2) +
+                             little_endian(method, 2) + little_endian(0, 4) +
+                             little_endian(crc, 4) + elsewhere + elsewhere +
+                             little_endian(name.size(), 2);
+  const std::string entry = "PK\3\4" + middle + little_endian(20, 2) + name +
+                            little_endian(1, 2) + little_endian(16, 2) + sizes +
+                            contents;
+  const std::string directory =
+      "PK\1\2" + little_endian(45, 2) + middle + little_endian(28, 2) +
+      little_endian(0, 10) + elsewhere + name + little_endian(1, 2) +
+      little_endian(24, 2) + sizes + little_endian(0, 8);
+  const std::string end =
+      "PK\6\6" + little_endian(44, 8) + little_endian(45, 2) +
+      little_endian(45, 2) + little_endian(0, 8) + little_endian(1, 8) +
+      little_endian(1, 8) + little_endian(directory.size(), 8) +
+      little_endian(entry.size(), 8) + "PK\6\7" + little_endian(0, 4) +
+      little_endian(entry.size() + directory.size(), 8) + little_endian(1, 4) +
+      "PK\5\6" + little_endian(0, 4) + little_endian(1, 2) +
+      little_endian(1, 2) + little_endian(directory.size(), 4) + elsewhere +
+      little_endian(0, 2);
+  return entry + directory + end;
+}
+
+TEST(ZipArchive, ReadsSizesOf64Bits) {
+  const std::string bytes = make_wide_zip("a", "contents");
+  const ZipArchive archive = ZipArchive::open(bytes);
+  EXPECT_EQ(archive.read("a"), "contents");
+  EXPECT_EQ(archive.unpacked_bytes(), 8);
+}
+
+TEST(ZipArchive, StandsBehindOtherBytes) {
+  const std::string bytes = "#!/bin/sh\n" + make_zip({{"a", "contents"}});
+  EXPECT_EQ(ZipArchive::open(bytes).read("a"), "contents");
+}
+
+TEST(ZipArchive, SaysWhatItCannotUnpack) {
+  const std::string locked = make_wide_zip("a", "x", 1);
+  EXPECT_EQ(fault_of([&] { ZipArchive::open(locked).read("a"); }),
+            "ZIP entry 'a' is encrypted");
+  const std::string packed = make_wide_zip("a", "x", 0, 12);
+  EXPECT_EQ(fault_of([&] { ZipArchive::open(packed).read("a"); }),
+            "ZIP entry 'a' is packed by method 12: expected Deflate");
+  std::string broken = make_wide_zip("a", "contents");
+  broken[broken.find("contents")] = 'C';
+  EXPECT_EQ(fault_of([&] { ZipArchive::open(broken).read("a"); }),
+            "ZIP entry 'a' is broken");
+}
+
 TEST(ZipArchive, RefusesToSwellWithoutEnd) {
   const std::string bytes =
       make_zip({{"bomb", std::string(std::size_t{400} << 20, 'x')}});
@@ -155,6 +220,7 @@ TEST(Archives, SurviveWhateverBefallsAFile) {
   expect_no_harm(kAmf, amf);
   expect_no_harm(make_zip({{"a.amf", kAmf}}), amf);
   expect_no_harm(make_zip({{"3D/3dmodel.model", k3mfModel}}), threemf);
+  expect_no_harm(make_wide_zip("3D/3dmodel.model", k3mfModel), threemf);
 }
 
 }  // namespace

@@ -251,17 +251,23 @@ TEST(Surfaces, InvertedImagesAreTheSame) {
       kFloat);
 }
 
-// There is no OFF file in the data: openscad writes one.
-TEST(Off, WrittenByOpenScadIsReadTheSame) {
+// Files that openscad writes itself: of OFF the data has none, and its 3MF has
+// sizes of 64 bits.
+class OwnFiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(OwnFiles, AreReadTheSame) {
   const support::TemporaryFolder folder;
   const std::string design = folder.write(
       "design.scad", "difference() { sphere(5, $fn = 20); cube(9); }");
-  const std::string off = folder.file("design.off");
+  const std::string file = folder.file(std::string("design.") + GetParam());
   const support::ProcessResult result =
-      support::run_process({"openscad", "-o", off, design});
+      support::run_process({"openscad", "-o", file, design});
   ASSERT_EQ(result.status, 0) << result.errors;
-  expect_the_same_vertices(fmt::format("import(\"{}\");", off), kFloat);
+  expect_the_same_vertices(fmt::format("import(\"{}\");", file), kFloat);
 }
+
+INSTANTIATE_TEST_SUITE_P(Formats, OwnFiles,
+                         testing::Values("off", "amf", "3mf", "stl"));
 
 }  // namespace
 }  // namespace lamina::csg
