@@ -63,6 +63,7 @@ bool apply_parameters(const DesignRequest& request, const FileAccess& access,
 csg::EvaluateOptions evaluate_options(const Request& request) {
   const DesignRequest& design = request.design;
   csg::EvaluateOptions options;
+  options.is_file = !design.text && is_imported(design.path);
   // As openscad sets it for each of its outputs.
   const bool has_preview = request.output.format == OutputFormat::kCsg ||
                            request.output.format == OutputFormat::kEcho;

@@ -199,6 +199,9 @@ struct ImportParams {
   std::string_view path;  // to open
   ImportFormat format = ImportFormat::kUnknown;
   Language rules = Language::k2021;  // by which the file is read
+  // The file is the design: a 3MF or AMF is read as slicers read it, with its
+  // items where they are placed, and in its unit.
+  bool is_design = false;
   std::optional<std::string_view> id = std::nullopt;
   std::optional<std::string_view> layer = std::nullopt;
   std::string_view entry;     // of a FreeCAD file: where a boundary is

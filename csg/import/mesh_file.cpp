@@ -14,8 +14,14 @@
 namespace lamina::csg {
 namespace {
 
-std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
-  std::vector<RawMesh> bodies;
+Placing placing_of(const ImportParams& params) {
+  if (params.is_design) return Placing::kFile;
+  return params.rules == Language::k2021 ? Placing::kNone : Placing::kOpenScad;
+}
+
+PlacedMeshes parse(std::string_view bytes, const ImportParams& params) {
+  PlacedMeshes meshes;
+  std::vector<RawMesh>& bodies = meshes.bodies;
   switch (params.format) {
     case ImportFormat::kStl:
       bodies.push_back(parse_stl(bytes));
@@ -30,9 +36,10 @@ std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
       bodies.push_back(parse_ply(bytes));
       break;
     case ImportFormat::kAmf:
-      return parse_amf(bytes, std::filesystem::path(params.path).filename());
+      return parse_amf(bytes, std::filesystem::path(params.path).filename(),
+                       placing_of(params));
     case ImportFormat::k3mf:
-      return parse_3mf(bytes, params.rules);
+      return parse_3mf(bytes, placing_of(params));
     case ImportFormat::kUnknown:
     case ImportFormat::kDxf:
     case ImportFormat::kSvg:
@@ -42,7 +49,7 @@ std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
     case ImportFormat::kFcstd:
       break;
   }
-  return bodies;
+  return meshes;
 }
 
 // The warnings in the words of OpenSCAD, which differ from format to format.
@@ -148,13 +155,18 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                             path, range));
     return {};
   }
-  std::vector<RawMesh> bodies;
+  PlacedMeshes meshes;
   try {
-    bodies = parse(*bytes, params);
+    meshes = parse(*bytes, params);
   } catch (const FormatError& fault) {
     report_broken(path, format, fault, range, diagnostics);
     return {};
   }
+  for (const std::string& words : meshes.passed_over) {
+    diagnostics.warning(range, fmt::format("'{}' {}, import() at line {}", path,
+                                           words, range.openscad_line()));
+  }
+  std::vector<RawMesh>& bodies = meshes.bodies;
   if (std::any_of(bodies.begin(), bodies.end(),
                   [](const RawMesh& raw) { return raw.is_stand_in; })) {
     diagnostics.warning(
@@ -173,7 +185,7 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                     "no numbers, of file '{}'",
                                     dropped, path));
   }
-  return bodies;
+  return std::move(meshes.bodies);
 }
 
 }  // namespace lamina::csg

@@ -67,19 +67,34 @@ RawMesh parse_obj(std::string_view bytes);
 // elements and properties are passed over. A file without faces is rejected.
 RawMesh parse_ply(std::string_view bytes);
 
-// AMF, plain and zipped: one body for each object. As in OpenSCAD 2021.01,
-// every object counts where it lies; units, constellations, colours and curved
-// triangles do not.
+// What a file for printers shows.
+struct PlacedMeshes {
+  std::vector<RawMesh> bodies;
+  // What it says and the reader passes over: each a sentence without a subject,
+  // "has lengths in inches, taken for millimetres".
+  std::vector<std::string> passed_over;
+};
+
+// By which rules the objects of a file are placed.
+enum class Placing : std::uint8_t {
+  kNone,      // each where it lies, as in OpenSCAD 2021.01
+  kOpenScad,  // as in newer OpenSCAD, with transforms in its order; 3MF only
+  kFile,      // as the file says, in its unit
+};
+
+// AMF, plain and zipped: one body for each object, or for each instance of a
+// constellation. Colours and curved triangles do not count.
 //
 // name  of the file, without folder: an archive's entry of that name is the
 //       model, or else its only entry
-std::vector<RawMesh> parse_amf(std::string_view bytes, const std::string& name);
+PlacedMeshes parse_amf(std::string_view bytes, const std::string& name,
+                       Placing placing = Placing::kNone);
 
-// 3MF: one body for each mesh object. In 2021.01 every object counts where it
-// lies; since then those that the build items name, through components, and
-// where these put them. Units and colours do not count.
-std::vector<RawMesh> parse_3mf(std::string_view bytes,
-                               Language rules = Language::k2021);
+// 3MF, with the parts that components name by their path (the production
+// extension): one body for each mesh object, or for each time that a build item
+// names it, through components. Colours do not count.
+PlacedMeshes parse_3mf(std::string_view bytes,
+                       Placing placing = Placing::kNone);
 
 // The format by a file's extension, with or without its dot, in any case of
 // letters.

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -7,7 +9,10 @@
 #include <glm/mat4x4.hpp>
 
 #include "base/file/zip.h"
+#include "base/text.h"
+#include "csg/import/detail/modifier_parts.h"
 #include "csg/import/detail/text_lines.h"
+#include "csg/import/detail/units.h"
 #include "csg/import/detail/xml.h"
 #include "csg/import/mesh_file.h"
 
@@ -58,17 +63,6 @@ RawMesh read_body(const pugi::xml_node& mesh) {
   return raw;
 }
 
-// What the slice extension says of an object whose slices count.
-bool has_low_resolution(const pugi::xml_node& object) {
-  for (const pugi::xml_attribute& attribute : object.attributes()) {
-    const std::string_view name = attribute.name();
-    if (name.substr(name.rfind(':') + 1) == "meshresolution") {
-      return attribute.value() == std::string_view("lowres");
-    }
-  }
-  return false;
-}
-
 using BodyTransform = glm::dmat4x3;
 
 // The attribute `transform`: twelve numbers, column by column; the identity
@@ -85,85 +79,215 @@ BodyTransform read_transform(const pugi::xml_node& node) {
   return transform;
 }
 
-// What a build item names, with the objects that it is composed of.
+// The attribute of that name, whatever prefix its namespace has.
+std::string_view attribute_of(const pugi::xml_node& node,
+                              std::string_view name) {
+  for (const pugi::xml_attribute& attribute : node.attributes()) {
+    const std::string_view whole = attribute.name();
+    if (whole.substr(whole.rfind(':') + 1) == name) return attribute.value();
+  }
+  return {};
+}
+
+// What the slice extension says of an object whose slices count.
+bool has_low_resolution(const pugi::xml_node& object) {
+  return attribute_of(object, "meshresolution") == "lowres";
+}
+
+// The parts of a package that hold objects, and what its build names.
 class Assembler {
  public:
-  explicit Assembler(const pugi::xml_node& model) {
+  Assembler(const ZipArchive& archive, Placing placing)
+      : archive_(archive),
+        placing_(placing),
+        root_(model_part(archive)),
+        order_{root_},
+        known_{root_} {
+    read_parts();
+    if (placing == Placing::kFile) modifiers_ = read_modifier_parts(archive);
+  }
+
+  PlacedMeshes run() {
+    const pugi::xml_node model = parts_.at(root_).document_element();
+    if (placing_ == Placing::kNone) {
+      add_all();
+    } else {
+      for_each_item(model, [&](const pugi::xml_node& item) {
+        add(root_, item, glm::dmat4(read_transform(item)), 0);
+      });
+    }
+    if (placing_ == Placing::kNone && is_placed(model)) {
+      meshes_.passed_over.push_back(fmt::format(
+          "places {}, and each object counts once, where it lies, as in "
+          "OpenSCAD 2021.01; with --language 2026 they are placed",
+          counted(count_items(model), "item", "items")));
+    }
+    if (modifiers_.count > 0) {
+      meshes_.passed_over.push_back(fmt::format(
+          "has {} for a slicer, such as modifiers and support blockers, which "
+          "are left out",
+          counted(modifiers_.count, "volume", "volumes")));
+    }
+    heed_unit(model.attribute("unit").value(), placing_, meshes_);
+    return std::move(meshes_);
+  }
+
+ private:
+  using Name = std::pair<std::string, std::string>;  // of part and object
+
+  template <typename Visit>
+  static void for_each_object(const pugi::xml_node& model, Visit visit) {
     for_each_child(model, "resources", [&](const pugi::xml_node& resources) {
-      for_each_child(resources, "object", [&](const pugi::xml_node& object) {
-        objects_[object.attribute("id").value()] = object;
-      });
+      for_each_child(resources, "object", visit);
     });
+  }
+  template <typename Visit>
+  static void for_each_item(const pugi::xml_node& model, Visit visit) {
     for_each_child(model, "build", [&](const pugi::xml_node& build) {
-      for_each_child(build, "item", [&](const pugi::xml_node& item) {
-        add(item, glm::dmat4(read_transform(item)), 0);
-      });
+      for_each_child(build, "item", visit);
     });
   }
 
-  std::vector<RawMesh> take() { return std::move(bodies_); }
+  // Reads the first part, those that its items and components name, and so on.
+  void read_parts() {
+    for (std::size_t i = 0; i < order_.size(); ++i) read_part(order_[i]);
+  }
+  void read_part(const std::string part) {
+    const auto bytes = archive_.read(part);
+    if (!bytes) throw FormatError(fmt::format("3MF holds no '{}'", part));
+    pugi::xml_document& document = parts_[part];
+    parse_xml(*bytes, "3MF", document);
+    const auto take_name = [&](const pugi::xml_node& reference) {
+      std::string name = part_of(reference, part);
+      if (known_.insert(name).second) order_.push_back(std::move(name));
+    };
+    const pugi::xml_node model = document.document_element();
+    for_each_object(model, [&](const pugi::xml_node& object) {
+      objects_[{part, object.attribute("id").value()}] = object;
+      for_each_component(object, take_name);
+    });
+    for_each_item(model, take_name);
+  }
 
- private:
-  // OpenSCAD applies what stands outside first.
-  void add(const pugi::xml_node& reference, const glm::dmat4& transform,
-           int depth) {
-    // Objects may name each other in a circle, or double with each step.
-    constexpr int kDeepest = 100;
-    constexpr std::size_t kMostBodies = 100'000;
-    if (depth > kDeepest || bodies_.size() >= kMostBodies) {
-      throw FormatError("3MF, too many components of components");
+  template <typename Visit>
+  static void for_each_component(const pugi::xml_node& object, Visit visit) {
+    for_each_child(object, "components", [&](const pugi::xml_node& components) {
+      for_each_child(components, "component", visit);
+    });
+  }
+
+  // The part that holds what an item or component of `part` names.
+  static std::string part_of(const pugi::xml_node& reference,
+                             const std::string& part) {
+    std::string_view path = attribute_of(reference, "path");
+    if (path.empty()) return part;
+    if (path.starts_with('/')) path.remove_prefix(1);
+    return std::string(path);
+  }
+
+  // Whether the build says more than that each object is there.
+  bool is_placed(const pugi::xml_node& model) const {
+    std::size_t items = 0;
+    bool is_moved = false;
+    for_each_item(model, [&](const pugi::xml_node& item) {
+      ++items;
+      is_moved |= read_transform(item) != BodyTransform(1.0);
+    });
+    std::size_t meshes = 0;
+    bool has_components = false;
+    for (const auto& [name, object] : objects_) {
+      for_each_child(object, "mesh", [&](const pugi::xml_node&) { ++meshes; });
+      for_each_component(object, [&](const pugi::xml_node& component) {
+        has_components = true;
+        is_moved |= read_transform(component) != BodyTransform(1.0);
+      });
     }
-    const char* const id = reference.attribute("objectid").value();
-    const auto object = objects_.find(id);
-    if (object == objects_.end()) {
-      throw FormatError(fmt::format("3MF, there is no object '{}'", id));
+    return is_moved || (!has_components && items != meshes);
+  }
+  static std::size_t count_items(const pugi::xml_node& model) {
+    std::size_t count = 0;
+    for_each_item(model, [&](const pugi::xml_node&) { ++count; });
+    return count;
+  }
+
+  // Each object once, where it lies.
+  void add_all() {
+    for (const std::string& part : order_) {
+      for_each_object(parts_.at(part).document_element(),
+                      [&](const pugi::xml_node& object) {
+                        add_mesh(object, glm::dmat4(1.0));
+                      });
     }
-    for_each_child(object->second, "mesh", [&](const pugi::xml_node& mesh) {
-      RawMesh& raw = bodies_.emplace_back(read_body(mesh));
-      raw.is_stand_in = has_low_resolution(object->second);
+  }
+
+  void add_mesh(const pugi::xml_node& object, const glm::dmat4& transform) {
+    for_each_child(object, "mesh", [&](const pugi::xml_node& mesh) {
+      RawMesh& raw = meshes_.bodies.emplace_back(read_body(mesh));
+      drop_modifiers(object, raw.mesh);
+      raw.is_stand_in = has_low_resolution(object);
+      if (transform == glm::dmat4(1.0)) return;
       for (Vec3& vertex : raw.mesh.vertices) {
         vertex = Vec3(transform * glm::dvec4(vertex, 1));
       }
     });
-    for_each_child(
-        object->second, "components", [&](const pugi::xml_node& components) {
-          for_each_child(
-              components, "component", [&](const pugi::xml_node& component) {
-                add(component,
-                    glm::dmat4(read_transform(component)) * transform,
-                    depth + 1);
-              });
-        });
   }
 
-  std::map<std::string_view, pugi::xml_node> objects_;
-  std::vector<RawMesh> bodies_;
+  void drop_modifiers(const pugi::xml_node& object, Mesh& mesh) const {
+    const auto found =
+        modifiers_.triangles.find(object.attribute("id").value());
+    if (found == modifiers_.triangles.end()) return;
+    std::erase_if(mesh.triangles, [&, i = 0U](const auto&) mutable {
+      const std::uint32_t number = i++;
+      return std::ranges::any_of(found->second, [&](const auto& range) {
+        return range.first <= number && number <= range.second;
+      });
+    });
+  }
+
+  void add(const std::string& part, const pugi::xml_node& reference,
+           const glm::dmat4& transform, int depth) {
+    // Objects may name each other in a circle, or double with each step.
+    constexpr int kDeepest = 100;
+    constexpr std::size_t kMostBodies = 100'000;
+    if (depth > kDeepest || meshes_.bodies.size() >= kMostBodies) {
+      throw FormatError("3MF, too many components of components");
+    }
+    const std::string home = part_of(reference, part);
+    const char* const id = reference.attribute("objectid").value();
+    const auto object = objects_.find({home, id});
+    if (object == objects_.end()) {
+      throw FormatError(fmt::format("3MF, there is no object '{}'", id));
+    }
+    add_mesh(object->second, transform);
+    for_each_component(object->second, [&](const pugi::xml_node& component) {
+      if (modifiers_.components.contains(
+              {id, component.attribute("objectid").value()})) {
+        return;
+      }
+      const glm::dmat4 own(read_transform(component));
+      // OpenSCAD applies what stands outside first.
+      add(home, component,
+          placing_ == Placing::kFile ? transform * own : own * transform,
+          depth + 1);
+    });
+  }
+
+  const ZipArchive& archive_;
+  const Placing placing_;
+  const std::string root_;
+  std::map<std::string, pugi::xml_document> parts_;
+  std::vector<std::string> order_;  // in which they are read
+  std::set<std::string> known_;     // the same names
+  ModifierParts modifiers_;
+  std::map<Name, pugi::xml_node> objects_;
+  PlacedMeshes meshes_;
 };
 
 }  // namespace
 
-std::vector<RawMesh> parse_3mf(std::string_view bytes, Language rules) {
+PlacedMeshes parse_3mf(std::string_view bytes, Placing placing) {
   const ZipArchive archive = ZipArchive::open(bytes);
-  const std::string part = model_part(archive);
-  const auto model = archive.read(part);
-  if (!model) throw FormatError(fmt::format("3MF holds no '{}'", part));
-  pugi::xml_document document;
-  parse_xml(*model, "3MF", document);
-  if (rules != Language::k2021) {
-    return Assembler(document.document_element()).take();
-  }
-  std::vector<RawMesh> bodies;
-  const auto read_object = [&](const pugi::xml_node& object) {
-    for_each_child(object, "mesh", [&](const pugi::xml_node& mesh) {
-      bodies.push_back(read_body(mesh));
-      bodies.back().is_stand_in = has_low_resolution(object);
-    });
-  };
-  for_each_child(document.document_element(), "resources",
-                 [&](const pugi::xml_node& resources) {
-                   for_each_child(resources, "object", read_object);
-                 });
-  return bodies;
+  return Assembler(archive, placing).run();
 }
 
 }  // namespace lamina::csg

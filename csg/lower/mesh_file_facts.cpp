@@ -13,6 +13,7 @@ std::vector<MeshFacts> measure_mesh_file(const std::string& path,
                                          const FileAccess& access) {
   ImportParams params;
   params.path = path;
+  params.is_design = true;
   params.format =
       import_format_of(std::filesystem::path(path).extension().string());
   Diagnostics unread;  // lowering has reported what there is to report

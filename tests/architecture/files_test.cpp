@@ -47,7 +47,6 @@ const std::map<std::string, std::string> kMayTouch = {
     {"base/child_process.cpp", "/dev/null"},
     {"csg/text/font_cache.cpp",
      "Fontconfig, which looks for the system's fonts"},
-    {"base/file/zip.cpp", "archives in memory"},
     {"base/file/zip_output.cpp", "archives into an OutputFile"},
     {"ldni/gl/gl_platforms.cpp", "the system's OpenGL"},
     {"cli/process/landlock.cpp", "names folders to the kernel"},

@@ -13,7 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   try {
     for (const csg::RawMesh& raw :
-         csg::parse_amf(fuzz::as_text(data, size), "input.amf")) {
+         csg::parse_amf(fuzz::as_text(data, size), "input.amf",
+                        csg::Placing::kFile)
+             .bodies) {
       fuzz::require(raw.count_stray_corners() == 0, "corners are vertices");
     }
   } catch (const FormatError&) {

@@ -12,7 +12,9 @@ using namespace lamina;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   try {
-    for (const csg::RawMesh& raw : csg::parse_3mf(fuzz::as_text(data, size))) {
+    for (const csg::RawMesh& raw :
+         csg::parse_3mf(fuzz::as_text(data, size), csg::Placing::kFile)
+             .bodies) {
       fuzz::require(raw.count_stray_corners() == 0, "corners are vertices");
     }
   } catch (const FormatError&) {

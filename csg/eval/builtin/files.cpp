@@ -293,6 +293,7 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   }
   if (!part.is_undef()) call.warn("part= names objects of FreeCAD files only");
   params.rules = in.language();
+  params.is_design = in.options().is_file;
   if (!id.is_undef()) params.id = in.keep_text(to_text(id));
   if (!layer.is_undef()) params.layer = in.keep_text(to_text(layer));
   // The name is wrong in 2021.01, too.

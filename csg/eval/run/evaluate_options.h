@@ -38,6 +38,8 @@ struct EvaluateOptions {
   // Greatest distance of facets from what they stand for, where the evaluation
   // makes them: of FreeCAD files [mm].
   double chordal_error = kChordalErrorOfParts;
+  // Whether the design is a file, and its text only imports it.
+  bool is_file = false;
   // For textmetrics() and fontmetrics(), which give undef without it.
   TextMeasurer* text_measurer = nullptr;
   // Whether to warn of numbers outside their range

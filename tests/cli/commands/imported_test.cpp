@@ -29,6 +29,44 @@ TEST(Imported, AMeshIsSlicedAsTheDesignThatImportsIt) {
   }
 }
 
+// A file by itself is read as slicers read it, import() as OpenSCAD.
+TEST(Imported, AFileOfInchesIsPlacedInItsUnit) {
+  const TemporaryFolder folder;
+  std::string vertices;
+  for (const char* const corner : {"000", "100", "010", "001"}) {
+    vertices += "<vertex><coordinates><x>" + std::string(1, corner[0]) +
+                "</x><y>" + corner[1] + "</y><z>" + corner[2] +
+                "</z></coordinates></vertex>";
+  }
+  std::string triangles;
+  for (const char* const face : {"021", "013", "123", "032"}) {
+    triangles += "<triangle><v1>" + std::string(1, face[0]) + "</v1><v2>" +
+                 face[1] + "</v2><v3>" + face[2] + "</v3></triangle>";
+  }
+  folder.write("a.amf",
+               "<amf unit=\"inch\"><object id=\"1\"><mesh><vertices>" +
+                   vertices + "</vertices><volume>" + triangles +
+                   "</volume></mesh></object><constellation id=\"2\">"
+                   "<instance objectid=\"1\"/><instance objectid=\"1\">"
+                   "<deltax>2</deltax></instance></constellation></amf>");
+  folder.write("b.scad",
+               "for (x = [0, 50.8]) translate([x, 0, 0]) scale(25.4) "
+               "polyhedron([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "
+               "[[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]]);");
+  folder.write("c.scad", "import(\"a.amf\");");
+  for (const std::string language : {"2021", "2026"}) {
+    const auto compared =
+        run(folder, {"compare", "a.amf", "b.scad", "--language", language});
+    EXPECT_EQ(compared.status, 0) << compared.output << compared.errors;
+  }
+  const auto imported = run(folder, {"c.scad"});
+  EXPECT_NE(imported.errors.find(" x 1 mm, "), std::string::npos)
+      << imported.errors;
+  EXPECT_NE(imported.errors.find("has lengths in the unit 'inch'"),
+            std::string::npos);
+  EXPECT_NE(imported.errors.find("places 2 instances"), std::string::npos);
+}
+
 TEST(Imported, CommandsThatTakeDesignsTakeMeshes) {
   const TemporaryFolder folder;
   folder.write("a.off", kTetrahedron);

@@ -49,7 +49,7 @@ void expect_the_corners(const RawMesh& raw) {
 }
 
 TEST(ParseAmf, HasABodyForEachObject) {
-  const auto bodies = parse_amf(kAmf, "a.amf");
+  const auto bodies = parse_amf(kAmf, "a.amf").bodies;
   ASSERT_EQ(bodies.size(), 2U);
   expect_the_corners(bodies[0]);
   EXPECT_TRUE(bodies[1].mesh.triangles.empty());
@@ -57,9 +57,10 @@ TEST(ParseAmf, HasABodyForEachObject) {
 
 TEST(ParseAmf, ReadsTheEntryOfItsOwnNameOrTheOnlyOne) {
   const auto named =
-      parse_amf(make_zip({{"other", "x"}, {"a.amf", kAmf}}), "a.amf");
+      parse_amf(make_zip({{"other", "x"}, {"a.amf", kAmf}}), "a.amf").bodies;
   expect_the_corners(named.at(0));
-  expect_the_corners(parse_amf(make_zip({{"b.amf", kAmf}}), "a.amf").at(0));
+  expect_the_corners(
+      parse_amf(make_zip({{"b.amf", kAmf}}), "a.amf").bodies.at(0));
   EXPECT_EQ(fault_of([] {
               parse_amf(make_zip({{"b", kAmf}, {"c", kAmf}}), "a.amf");
             }),
@@ -90,19 +91,21 @@ TEST(ParseAmf, EntitiesDoNotGrow) {
     text += "\">";
   }
   text += "]>\n<amf><object>&z;</object></amf>";
-  EXPECT_EQ(parse_amf(text, "a.amf").size(), 1U);
+  EXPECT_EQ(parse_amf(text, "a.amf").bodies.size(), 1U);
 }
 
 TEST(Parse3mf, ReadsThePartThatThePackageNames) {
   const auto bodies = parse_3mf(make_zip({{"3D/3dmodel.model", "not this one"},
                                           {"_rels/.rels", kRelationships},
-                                          {"other/part.model", k3mfModel}}));
+                                          {"other/part.model", k3mfModel}}))
+                          .bodies;
   ASSERT_EQ(bodies.size(), 1U);
   expect_the_corners(bodies[0]);
 }
 
 TEST(Parse3mf, ReadsTheUsualPartWithoutRelationships) {
-  const auto bodies = parse_3mf(make_zip({{"3D/3dmodel.model", k3mfModel}}));
+  const auto bodies =
+      parse_3mf(make_zip({{"3D/3dmodel.model", k3mfModel}})).bodies;
   ASSERT_EQ(bodies.size(), 1U);
   expect_the_corners(bodies[0]);
 }
@@ -120,6 +123,139 @@ TEST(Parse3mf, SaysWhatIsWrong) {
               parse_3mf(make_zip({{"3D/3dmodel.model", model}}));
             }),
             "3MF, there is no vertex 3");
+}
+
+// --- Placing -----------------------------------------------------------------
+
+// A triangle with its first corner at the origin, in a unit.
+std::string model_of(const std::string& resources, const std::string& build,
+                     const std::string& unit = "millimeter") {
+  return "<model unit=\"" + unit +
+         "\" xmlns=\"urn:x\" xmlns:p=\"urn:p\"><resources>" + resources +
+         "</resources><build>" + build + "</build></model>";
+}
+std::string triangle(const std::string& id) {
+  return "<object id=\"" + id +
+         "\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" "
+         "y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/></vertices>"
+         "<triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh>"
+         "</object>";
+}
+PlacedMeshes read_placed(const std::string& model, Placing placing,
+                         const std::string& other = "") {
+  return parse_3mf(
+      make_zip({{"3D/3dmodel.model", model}, {"3D/Objects/o.model", other}}),
+      placing);
+}
+std::vector<Vec3> first_corners(const PlacedMeshes& meshes) {
+  std::vector<Vec3> corners;
+  for (const RawMesh& raw : meshes.bodies) {
+    corners.push_back(raw.mesh.vertices.at(0));
+  }
+  return corners;
+}
+
+// Turns by a quarter about z; moves by 10 along x.
+const std::string kTurn = "transform=\"0 1 0 -1 0 0 0 0 1 0 0 0\"";
+const std::string kMove = "transform=\"1 0 0 0 1 0 0 0 1 10 0 0\"";
+
+TEST(Parse3mf, PlacesItemsAsTheFileSays) {
+  const std::string model =
+      model_of(triangle("1") +
+                   "<object id=\"2\"><components><component objectid=\"1\" " +
+                   kMove + "/></components></object>",
+               "<item objectid=\"1\"/><item objectid=\"1\" " + kMove +
+                   "/><item objectid=\"2\" " + kTurn + "/>");
+  // What stands outside is applied last; OpenSCAD applies it first.
+  EXPECT_EQ(first_corners(read_placed(model, Placing::kFile)),
+            (std::vector<Vec3>{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}}));
+  EXPECT_EQ(first_corners(read_placed(model, Placing::kOpenScad)),
+            (std::vector<Vec3>{{0, 0, 0}, {10, 0, 0}, {10, 0, 0}}));
+  const PlacedMeshes lying = read_placed(model, Placing::kNone);
+  EXPECT_EQ(first_corners(lying), (std::vector<Vec3>{{0, 0, 0}}));
+  ASSERT_EQ(lying.passed_over.size(), 1U);
+  EXPECT_TRUE(lying.passed_over[0].starts_with("places 3 items, and "));
+}
+
+TEST(Parse3mf, SaysNothingOfObjectsThatLieWhereTheyArePlaced) {
+  const std::string model =
+      model_of(triangle("1") + triangle("2"),
+               "<item objectid=\"1\"/><item objectid=\"2\"/>");
+  EXPECT_TRUE(read_placed(model, Placing::kNone).passed_over.empty());
+}
+
+TEST(Parse3mf, ReadsObjectsOfOtherParts) {
+  const std::string model = model_of(
+      "<object id=\"1\"><components><component p:path=\"/3D/Objects/o.model\" "
+      "objectid=\"1\" " +
+          kMove + "/></components></object>",
+      "<item objectid=\"1\" " + kMove + "/>");
+  const std::string other = model_of(triangle("1"), "");
+  EXPECT_EQ(first_corners(read_placed(model, Placing::kFile, other)),
+            (std::vector<Vec3>{{20, 0, 0}}));
+  EXPECT_EQ(first_corners(read_placed(model, Placing::kNone, other)),
+            (std::vector<Vec3>{{0, 0, 0}}));
+}
+
+TEST(Parse3mf, HeedsUnitsOrSaysThatItDoesNot) {
+  const std::string model =
+      model_of(triangle("1"), "<item objectid=\"1\" " + kMove + "/>", "inch");
+  EXPECT_EQ(first_corners(read_placed(model, Placing::kFile)),
+            (std::vector<Vec3>{{254, 0, 0}}));
+  const PlacedMeshes taken = read_placed(model, Placing::kOpenScad);
+  EXPECT_EQ(first_corners(taken), (std::vector<Vec3>{{10, 0, 0}}));
+  EXPECT_EQ(taken.passed_over,
+            std::vector<std::string>{"has lengths in the unit 'inch', taken "
+                                     "for millimetres as in OpenSCAD"});
+}
+
+TEST(Parse3mf, LeavesOutWhatSlicersAddForThemselves) {
+  const std::string model = model_of(
+      triangle("1") + triangle("2") +
+          "<object id=\"3\"><components><component objectid=\"1\"/><component "
+          "objectid=\"2\"/></components></object>",
+      "<item objectid=\"3\"/>");
+  const auto read = [&](const std::string& name, const std::string& config) {
+    return parse_3mf(make_zip({{"3D/3dmodel.model", model}, {name, config}}),
+                     Placing::kFile);
+  };
+  const auto count = [](const PlacedMeshes& meshes) {
+    std::size_t triangles = 0;
+    for (const RawMesh& raw : meshes.bodies) {
+      triangles += raw.mesh.triangles.size();
+    }
+    return triangles;
+  };
+  const PlacedMeshes of_bambu =
+      read("Metadata/model_settings.config",
+           R"(<config><object id="3"><part id="1" subtype="normal_part"/>
+<part id="2" subtype="modifier_part"/></object></config>)");
+  EXPECT_EQ(count(of_bambu), 1U);
+  ASSERT_EQ(of_bambu.passed_over.size(), 1U);
+  EXPECT_TRUE(of_bambu.passed_over[0].starts_with("has 1 volume for a slicer"));
+  EXPECT_EQ(count(read("Metadata/Slic3r_PE_model.config",
+                       R"(<config><object id="2"><volume firstid="0" lastid="0">
+<metadata type="volume" key="volume_type" value="SupportBlocker"/></volume>
+</object></config>)")),
+            1U);
+  EXPECT_EQ(count(read("Metadata/Slic3r_PE_model.config",
+                       R"(<config><object id="2"><volume firstid="0" lastid="0">
+<metadata type="volume" key="volume_type" value="ModelPart"/></volume>
+</object></config>)")),
+            2U);
+}
+
+TEST(ParseAmf, PlacesInstancesInItsUnit) {
+  std::string text = kAmf;
+  text.replace(text.find("</amf>"), 6,
+               "<constellation id=\"2\"><instance objectid=\"0\"><deltax>2"
+               "</deltax><rz>90</rz></instance><instance objectid=\"0\"/>"
+               "</constellation></amf>");
+  const auto bodies = parse_amf(text, "a.amf", Placing::kFile).bodies;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0].mesh.vertices.at(1), 25.4 * Vec3(2, 1.5, 0));
+  EXPECT_EQ(bodies[1].mesh.vertices.at(1), 25.4 * Vec3(1.5, 0, 0));
+  EXPECT_EQ(parse_amf(text, "a.amf").passed_over.size(), 2U);
 }
 
 TEST(ZipArchive, KeepsOfNamesWhatTheyTake) {
@@ -212,10 +348,15 @@ TEST(ZipArchive, RefusesToSwellWithoutEnd) {
 
 TEST(Archives, SurviveWhateverBefallsAFile) {
   const auto amf = [](std::string_view bytes) {
-    for (const RawMesh& raw : parse_amf(bytes, "a.amf")) expect_whole(raw);
+    for (const RawMesh& raw :
+         parse_amf(bytes, "a.amf", Placing::kFile).bodies) {
+      expect_whole(raw);
+    }
   };
   const auto threemf = [](std::string_view bytes) {
-    for (const RawMesh& raw : parse_3mf(bytes)) expect_whole(raw);
+    for (const RawMesh& raw : parse_3mf(bytes, Placing::kFile).bodies) {
+      expect_whole(raw);
+    }
   };
   expect_no_harm(kAmf, amf);
   expect_no_harm(make_zip({{"a.amf", kAmf}}), amf);
