@@ -1,6 +1,7 @@
 #include "csg/boundary/projection.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -97,18 +98,29 @@ void add_shadow(const Leaf& leaf, const Affine& world_from_leaf,
   }
 }
 
-// Returns where the program holds just above or just below the plane.
+Region section_of(const PlacedLeaf& leaf, const Plane& plane, Touch touch,
+                  const Region& window) {
+  const auto section = [&](Side side) {
+    return plane::clip(whole_section(leaf, plane, side).contours, window);
+  };
+  Region above = section(Side::kAbove);
+  if (touch == Touch::kAbove) return above;
+  const Region below = section(Side::kBelow);
+  if (above == below) return above;
+  const std::array both = {above, below};
+  return plane::unite(both);
+}
+
+// Returns where the program holds in the plane.
 Region evaluate_at(const Scene& scene, const Plane& plane,
                    const std::vector<std::uint32_t>& near,
-                   const std::vector<PlacedLeaf>& leaves, Side side) {
+                   const std::vector<PlacedLeaf>& leaves, Touch touch) {
   std::vector<LiveInstance> live;
   const Vec2 low = Vec2(scene.box.low) - 1.0;
   const Vec2 high = Vec2(scene.box.high) + 1.0;
   const Region window{{{low, {high.x, low.y}, high, {low.x, high.y}}}};
   for (std::size_t i = 0; i < near.size(); ++i) {
-    live.push_back(
-        {near[i],
-         plane::clip(whole_section(leaves[i], plane, side).contours, window)});
+    live.push_back({near[i], section_of(leaves[i], plane, touch, window)});
   }
   const auto value = evaluate_in_window(
       scene, plane::ProgramState(program_of(scene)), live, window);
@@ -149,7 +161,7 @@ Region project(Scene scene) {
   return plane::from_contours(shadows, plane::FillRule::kNonZero);
 }
 
-Region cut_at_zero(const Scene& scene) {
+Region cut_at_zero(const Scene& scene, Touch touch) {
   const Plane plane(Vec3(0), Vec3(0, 0, 1));
   std::vector<std::uint32_t> near;
   std::vector<PlacedLeaf> leaves;
@@ -159,11 +171,10 @@ Region cut_at_zero(const Scene& scene) {
     near.push_back(i);
     leaves.emplace_back(scene.leaves[instance.leaf], instance.world_from_leaf);
   }
-  Region above = evaluate_at(scene, plane, near, leaves, Side::kAbove);
-  const Region below = evaluate_at(scene, plane, near, leaves, Side::kBelow);
+  Region section = evaluate_at(scene, plane, near, leaves, touch);
   const Region flat = flat_at_zero(scene);
-  if (above == below && flat.is_empty()) return above;
-  const std::vector<Region> all{above, below, flat};
+  if (flat.is_empty()) return section;
+  const std::array all = {section, flat};
   return plane::unite(all);
 }
 

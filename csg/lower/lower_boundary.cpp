@@ -255,7 +255,11 @@ Shape Lowerer::lower_op(const Projection& op, const Place& at) {
   if (op.cut) report_strays(operands);
   const Scene scene = inner.take_scene();
   if (scene.instances.empty()) return {};
-  plane::Region region = op.cut ? cut_at_zero(scene) : project(scene);
+  plane::Region region =
+      op.cut ? cut_at_zero(scene, options_.language == Language::k2021
+                                      ? Touch::kBothSides
+                                      : Touch::kAbove)
+             : project(scene);
   if (!region.is_empty()) return {Dimension::kFlat, std::move(region)};
   if (op.cut && misses_zero(scene)) {
     diagnostics_.warning({}, "Projection() failed.");

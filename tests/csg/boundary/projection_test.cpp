@@ -1,6 +1,9 @@
 // projection() both ways, against areas known otherwise and laws.
 
+#include "csg/boundary/projection.h"
+
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
 #include <string>
@@ -11,6 +14,7 @@
 #include "plane/region/boolean.h"
 #include "tests/csg/lower/lower_fixture.h"
 #include "tests/support/formulas.h"
+#include "tests/support/leaf_scenes.h"
 
 namespace lamina::csg {
 namespace {
@@ -67,15 +71,68 @@ TEST_F(Projections, CutWhatOnlyTouchesThePlane) {
   EXPECT_NEAR(plane::area(cut({b.cube({1, 1, 1}),
                                b.translate({1, 0, -2}, {b.cube({3, 1, 2})})})),
               4, kRounding);
-  // A cavity that ends in the plane does not show.
+  // A cavity that ends in the plane shows: what is taken away takes its surface
+  // along.
   const Node* dented = b.node(
       Difference{},
       {b.cube({4, 4, 4}, true), b.translate({-1, -1, 0}, {b.cube({2, 2, 5})})});
-  EXPECT_NEAR(plane::area(cut({dented})), 16, kRounding);
+  EXPECT_NEAR(plane::area(cut({dented})), 12, kRounding);
 }
 
 // Whether a vertex this near lies on the plane may be decided either way, but
 // for all its faces alike.
+// Boxes between whole numbers under random operators: a square of the plane is
+// inside a box that is taken with its surface where low ≤ 0 ≤ high, and inside
+// one that is cut just above the plane where low ≤ 0 < high.
+TEST(CutAtZero, OfBoxesThatTouchThePlaneIsThatOfTheirSquares) {
+  constexpr std::uint32_t kSize = 6;
+  std::mt19937 random(5);
+  for (int round = 0; round < 300; ++round) {
+    const auto draw_op = [&] {
+      return static_cast<plane::BooleanOp>(random() % 3);
+    };
+    Scene scene = support::scene_of(draw_op());
+    std::vector<std::uint32_t> parents = {0};
+    std::vector<Box3> boxes;
+    for (int i = 0; i < 6; ++i) {
+      if (i == 2 || i == 4) {
+        parents.push_back(support::add_operator(scene, draw_op(), 0));
+      }
+      Box3 box;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto low = static_cast<double>(random() % (kSize - 1));
+        box.low[axis] = low;
+        box.high[axis] = low + (random() % 2 == 0 ? 1 : 2);
+      }
+      box = box.shifted({0, 0, -3});
+      boxes.push_back(box);
+      scene.leaves.push_back(
+          support::mesh_leaf(support::box_mesh(box.low, box.high)));
+      support::place_leaf(scene, static_cast<std::uint32_t>(i), Affine(1.0),
+                          parents.back());
+    }
+    support::cover_instances(scene);
+    for (const Touch touch : {Touch::kBothSides, Touch::kAbove}) {
+      int squares = 0;
+      for (std::uint32_t x = 0; x <= kSize; ++x) {
+        for (std::uint32_t y = 0; y <= kSize; ++y) {
+          std::vector<bool> inside;
+          for (const Box3& box : boxes) {
+            const bool is_cut =
+                box.low.z <= 0 &&
+                (touch == Touch::kAbove ? 0 < box.high.z : 0 <= box.high.z);
+            inside.push_back(is_cut && box.low.x <= x && x < box.high.x &&
+                             box.low.y <= y && y < box.high.y);
+          }
+          squares += support::evaluate_program(scene, inside) ? 1 : 0;
+        }
+      }
+      EXPECT_NEAR(plane::area(cut_at_zero(scene, touch)), squares, kRounding)
+          << "round " << round;
+    }
+  }
+}
+
 TEST_F(Projections, CutALeafWithVerticesAtTheVeryLimit) {
   const Node* pipe = b.node(
       Difference{}, {b.sphere(5, 32), b.scale({1, 1, 2}, {b.sphere(2, 32)})});
