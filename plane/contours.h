@@ -24,6 +24,7 @@ struct Contours {
     return {points.data() + begin, ends[i] - begin};
   }
   bool is_empty() const { return ends.empty(); }
+  bool operator==(const Contours&) const = default;
   void add_loop(std::span<const Vec2> loop) {
     points.insert(points.end(), loop.begin(), loop.end());
     ends.push_back(static_cast<std::uint32_t>(points.size()));

@@ -42,6 +42,7 @@ LoopRounder::LoopRounder()
                 plane::FillRule::kPositive) {}
 
 void LoopRounder::round(plane::Contours& contours, double clearance) {
+  has_snapped_ = false;
   if (contours.is_empty()) return;
   int exponent = 0;
   std::frexp(greatest_coordinate(contours.points), &exponent);
@@ -50,6 +51,7 @@ void LoopRounder::round(plane::Contours& contours, double clearance) {
     for (Vec2& point : contours.points) point = to_float(point);
     return;
   }
+  has_snapped_ = true;
   ++snapped_layers_;
   snap(contours);
 }

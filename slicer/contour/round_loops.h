@@ -38,6 +38,9 @@ class LoopRounder {
   // clearance  as of Layer
   void round(plane::Contours& contours, double clearance = 0);
 
+  // Counts a layer that is equal to the last one.
+  void count_again() { snapped_layers_ += has_snapped_ ? 1 : 0; }
+
   // Layers that were snap-rounded since construction.
   std::uint64_t snapped_layers() const { return snapped_layers_; }
 
@@ -72,6 +75,7 @@ class LoopRounder {
   };
   std::vector<Passage> passages_;
   plane::LoopResolver resolver_;
+  bool has_snapped_ = false;  // the last layer
   std::uint64_t snapped_layers_ = 0;
   int most_moves_ = 1;
 };

@@ -145,11 +145,6 @@ LayerGraph::LayerGraph(double self_supporting)
   components_.push_back(outside);
 }
 
-bool LayerGraph::repeats(const Layer& layer) const {
-  return layer.contours.ends == last_.ends &&
-         layer.contours.points == last_.points;
-}
-
 void LayerGraph::take(const Layer& layer, const LayerOverlay* overlay) {
   ++layers_;
   const bool is_first = layers_ == 1;
@@ -158,7 +153,7 @@ void LayerGraph::take(const Layer& layer, const LayerOverlay* overlay) {
     lay(Layer(), nullptr);
     overlay = nullptr;
   }
-  if (is_first || !repeats(layer)) {
+  if (is_first || layer.contours != last_) {
     lay(layer, overlay);
   } else {
     patches_.clear();

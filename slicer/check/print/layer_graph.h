@@ -130,7 +130,6 @@ class LayerGraph {
   };
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  bool repeats(const Layer& layer) const;
   void lay(const Layer& layer, const LayerOverlay* overlay);
   void measure_regions(const LayerOverlay& overlay);
   void take_solids(const Layer& layer, const LayerOverlay& overlay);

@@ -19,6 +19,13 @@ constexpr double kCoarse = 0x1p-10;
 }  // namespace
 
 void FloatContours::take(const Layer& layer) {
+  // Upright walls give layer after layer the same contours.
+  if (has_loops_ && layer.clearance == clearance_ && layer.contours == taken_) {
+    rounder_.count_again();
+    return;
+  }
+  clearance_ = layer.clearance;
+  taken_ = layer.contours;
   reach_ = std::max(reach_, greatest_coordinate(layer.contours.points));
   rounded_ = layer.contours;
   rounder_.round(rounded_, layer.clearance);

@@ -65,6 +65,8 @@ class FloatContours {
   void extend();
 
   LoopRounder rounder_;
+  double clearance_ = 0;   // of the last layer
+  plane::Contours taken_;  // its contours
   plane::Contours rounded_;
   std::vector<FloatPoint> points_;
   std::vector<std::size_t> ends_;

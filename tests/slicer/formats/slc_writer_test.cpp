@@ -36,6 +36,28 @@ std::vector<SlcLayer> layers_of(const std::string& bytes) {
   return layers;
 }
 
+// Equal contours are rounded once, whatever stands between them.
+TEST(SlcWriter, WritesALayerAlikeWhateverWasBefore) {
+  const std::vector<std::vector<Vec2>> near = {
+      {{100, 0}, {101, 0}, {101, 1}, {100, 1}},
+      {{101.000001, 0}, {102, 0}, {102, 1}, {101.000001, 1}}};
+  const std::vector<std::vector<Vec2>> apart = {
+      {{100, 0}, {101, 0}, {101, 1}, {100, 1}}};
+  const auto all = layers_of(write_slc(
+      {layer_at(0, 1, near), layer_at(1, 2, near), layer_at(2, 3, {}),
+       layer_at(3, 4, near), layer_at(4, 5, apart), layer_at(5, 6, near)}));
+  ASSERT_GE(all.size(), 6U);
+  for (const std::size_t i : {0, 1, 3, 5}) {
+    const auto alone = layers_of(write_slc({layer_at(0, 1, near)}));
+    ASSERT_EQ(all[i].boundaries.size(), alone[0].boundaries.size()) << i;
+    for (std::size_t k = 0; k < alone[0].boundaries.size(); ++k) {
+      EXPECT_EQ(all[i].boundaries[k].points, alone[0].boundaries[k].points);
+    }
+  }
+  EXPECT_EQ(all[2].boundaries.size(), 0U);
+  EXPECT_EQ(all[4].boundaries.size(), 1U);
+}
+
 TEST(SlcWriter, WritesEveryByteOfTheFormat) {
   // A square of 4 mm with a square hole of 2 mm, an empty layer, a triangle;
   // layers of 0.5 mm from z = 1.
