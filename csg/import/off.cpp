@@ -57,6 +57,13 @@ class Reader {
     if (is_homogeneous_) kind.remove_prefix(1);
     const bool has_dimension = kind.starts_with('n');
     if (has_dimension) kind.remove_prefix(1);
+    // The first number may follow without a blank.
+    if (kind.starts_with("OFF") && to_number<std::uint32_t>(kind.substr(3))) {
+      const char* const number = kind.data() + 3;
+      const char* const end = rest.data() + rest.size();
+      rest_ = {number, static_cast<std::size_t>(end - number)};
+      return;
+    }
     if (kind != "OFF") fail("OFF, [ST][C][N][4][n]OFF");
     if (take_word(rest) == "BINARY") fail("text, not BINARY");
     if (has_dimension && read_count("the dimension") != 3) {

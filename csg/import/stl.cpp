@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/file/format_error.h"
+#include "base/letter_case.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/mesh_file.h"
 #include "csg/mesh/vertex_table.h"
@@ -167,6 +168,10 @@ RawMesh parse_text(std::string_view bytes) {
 RawMesh parse_stl(std::string_view bytes) {
   if (is_binary(bytes)) return parse_binary(bytes);
   if (bytes.starts_with("solid")) return parse_text(bytes);
+  // Some programs write capitals.
+  if (lower_case(bytes.substr(0, 5)) == "solid") {
+    return parse_text(lower_case(bytes));
+  }
   throw FormatError(
       bytes.size() < kHeader
           ? "STL file is neither text nor a whole header"

@@ -37,7 +37,8 @@ struct Length {
 };
 
 // view  the side of the viewBox; 0 if there is none
-Length read_length(std::string_view text, double view, double dpi) {
+Length read_length(std::string_view text, double view, double dpi,
+                   Language rules) {
   static const std::map<std::string_view, double> kUnits = {
       {"px", kInch / 96}, {"pt", kInch / 72}, {"pc", kInch / 6},
       {"in", kInch},      {"cm", 10},         {"mm", 1}};
@@ -47,6 +48,8 @@ Length read_length(std::string_view text, double view, double dpi) {
   if (number && unit.empty()) return {*number * kInch / dpi};
   if (number && unit == "%") {
     const double share = *number / 100;
+    // In 2021.01 such a page has the whole viewBox, in millimetres.
+    if (rules == Language::k2021) return {view};
     return {share * view * kInch / dpi, share};
   }
   if (number && (unit == "em" || unit == "ex")) return {view};
@@ -81,11 +84,11 @@ Alignment read_alignment(std::string_view text) {
 
 }  // namespace
 
-SvgPage read_svg_page(const pugi::xml_node& svg, double dpi) {
+SvgPage read_svg_page(const pugi::xml_node& svg, double dpi, Language rules) {
   const auto box = read_view_box(svg.attribute("viewBox").value());
   const auto side = [&](const char* name, int axis) {
     const double view = box ? box->size[axis] : 0;
-    return read_length(svg.attribute(name).value(), view, dpi);
+    return read_length(svg.attribute(name).value(), view, dpi, rules);
   };
   const Length width = side("width", 0);
   const Length height = side("height", 1);

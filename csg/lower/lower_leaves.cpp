@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -63,17 +64,21 @@ Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
     const bool is_finite = glm::dot(point, Vec3(0)) == 0;
     mesh.vertices.push_back(is_finite ? point : Vec3(0));
   }
-  bool has_degenerate = false;
+  std::optional<std::size_t> degenerate;  // the first such face
   for (std::size_t face = 0; face < polyhedron.faces.size(); ++face) {
     const auto loop = read_face(polyhedron, face, range, diagnostics);
     if (loop.size() < 3) {
-      has_degenerate = true;
+      if (!degenerate) degenerate = face;
       continue;
     }
     add_face(mesh, loop);
   }
-  if (has_degenerate) {
-    diagnostics.warning(range, "PolySet has degenerate polygons");
+  if (degenerate) {
+    diagnostics.warning(
+        range, "PolySet has degenerate polygons",
+        {{range, fmt::format("faces[{}] names fewer than 3 points: expected a "
+                             "list such as [0, 1, 2]",
+                             *degenerate)}});
   }
   repair_and_report(mesh, range, diagnostics);
   return mesh;

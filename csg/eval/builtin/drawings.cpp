@@ -1,5 +1,6 @@
 // dxf_dim() and dxf_cross() (see functions.h).
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -39,46 +40,54 @@ std::string folder_of(const Frame& frame) {
 
 enum class Kind : std::uint8_t { kDim, kCross };
 
-bool takes(Kind kind, std::string_view name) {
-  return name == "file" || name == "layer" || name == "origin" ||
-         name == "scale" || (kind == Kind::kDim && name == "name");
+// In the order in which 2026 takes arguments without a name.
+std::vector<std::string_view> parameters_of(Kind kind) {
+  std::vector<std::string_view> names = {"file", "layer", "origin", "scale"};
+  if (kind == Kind::kDim) names.push_back("name");
+  return names;
 }
 
-// 2026 says so before it takes any argument, 2021.01 when it comes to it.
-void warn_of_unknown(Kind kind, const CallCode& code, Frame& frame) {
-  for (const WrittenArgument& argument : code.arguments) {
-    if (takes(kind, argument.name)) continue;
-    warn(code, frame, "variable \"{}\" not specified as parameter",
-         argument.name);
+void take_argument(std::string_view name, const Value& value, Kind kind,
+                   const CallCode& code, Frame& frame, Query& query) {
+  if (name == "file") {
+    query.written_file = to_text(value);
+    const std::string folder =
+        kind == Kind::kDim ? folder_of(frame) : frame.in.design_folder();
+    query.path = find_file(query.written_file, folder, code.range, frame.in);
+  } else if (name == "layer") {
+    query.layer = to_text(value);
+  } else if (name == "origin") {
+    const std::optional<Vec2> origin = to_vec2(value);
+    if (origin) query.origin = *origin;
+    if (!origin || !std::isfinite(origin->x) || !std::isfinite(origin->y)) {
+      warn(code, frame, "{}(..., origin={}) could not be converted", code.name,
+           to_echo(value));
+    }
+  } else if (name == "scale") {
+    if (value.is_number()) query.scale = value.as_number();
+  } else {
+    query.name = to_text(value);
   }
 }
 
-// Reads the arguments, which all go by name.
+// In 2021.01 all arguments go by name.
 Query read_query(Kind kind, const CallCode& code, Frame& frame) {
+  const std::vector<std::string_view> names = parameters_of(kind);
   Query query;
-  const bool is_2021 = frame.in.is_2021();
-  if (!is_2021) warn_of_unknown(kind, code, frame);
+  if (!frame.in.is_2021()) {
+    const std::vector<Value> values =
+        run_named_arguments(names, names.size(), code, frame);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (values[i].is_undef()) continue;
+      take_argument(names[i], values[i], kind, code, frame, query);
+    }
+    return query;
+  }
   for (const WrittenArgument& argument : code.arguments) {
     const Value value = run(argument.value, frame);
-    if (argument.name == "file") {
-      query.written_file = to_text(value);
-      const std::string folder =
-          kind == Kind::kDim ? folder_of(frame) : frame.in.design_folder();
-      query.path = find_file(query.written_file, folder, code.range, frame.in);
-    } else if (argument.name == "layer") {
-      query.layer = to_text(value);
-    } else if (argument.name == "origin") {
-      const std::optional<Vec2> origin = to_vec2(value);
-      if (origin) query.origin = *origin;
-      if (!origin || !std::isfinite(origin->x) || !std::isfinite(origin->y)) {
-        warn(code, frame, "{}(..., origin={}) could not be converted",
-             code.name, to_echo(value));
-      }
-    } else if (argument.name == "scale") {
-      if (value.is_number()) query.scale = value.as_number();
-    } else if (takes(kind, argument.name)) {
-      query.name = to_text(value);
-    } else if (is_2021) {
+    if (std::ranges::find(names, argument.name) != names.end()) {
+      take_argument(argument.name, value, kind, code, frame, query);
+    } else {
       warn(code, frame, "{}(..., {}=...) is not supported", code.name,
            argument.name);
     }

@@ -21,7 +21,7 @@ struct SvgPage {
 };
 
 // Reads width, height, viewBox and preserveAspectRatio of an <svg> element.
-SvgPage read_svg_page(const pugi::xml_node& svg, double dpi);
+SvgPage read_svg_page(const pugi::xml_node& svg, double dpi, Language rules);
 
 // The lines that stand for an ellipse, and for an arc of one.
 //

@@ -37,13 +37,17 @@ std::optional<Number> to_number(std::string_view word) {
 
 class TextLines {
  public:
-  explicit TextLines(std::string_view text) : rest_(text) {}
+  // Lines end with LF or CRLF; in a text without any LF with CR, as on old
+  // Macintoshes.
+  explicit TextLines(std::string_view text)
+      : rest_(text),
+        end_(text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
 
   // The next line, trimmed; nothing at the end.
   std::optional<std::string_view> next() {
     if (rest_.data() == nullptr || is_done_) return std::nullopt;
     ++number_;
-    const std::size_t end = rest_.find('\n');
+    const std::size_t end = rest_.find(end_);
     const std::string_view line = rest_.substr(0, end);
     is_done_ = end == std::string_view::npos;
     if (!is_done_) rest_.remove_prefix(end + 1);
@@ -58,6 +62,7 @@ class TextLines {
 
  private:
   std::string_view rest_;
+  char end_;
   std::size_t number_ = 0;
   bool is_done_ = false;
 };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,19 @@ TEST(ParseOff, ReadsVerticesTrianglesAndPolygons) {
   EXPECT_EQ(raw.polygons[0], (std::vector<std::uint32_t>{3, 2, 1, 0}));
   ASSERT_EQ(raw.mesh.triangles.size(), 4U);
   EXPECT_EQ(raw.mesh.triangles[1], (std::array<std::uint32_t, 3>{1, 2, 4}));
+}
+
+TEST(ParseOff, ReadsAHeaderThatTheNumbersFollowAtOnce) {
+  std::string glued = kPyramid;
+  glued.replace(glued.find("OFF\n"), 4, "OFF");
+  EXPECT_EQ(parse_off(glued).mesh, parse_off(kPyramid).mesh);
+  EXPECT_EQ(parse_off(glued).polygons, parse_off(kPyramid).polygons);
+}
+
+TEST(ParseOff, ReadsLinesThatEndAsOnOldMacintoshes) {
+  std::string returns = kPyramid;
+  std::ranges::replace(returns, '\n', '\r');
+  EXPECT_EQ(parse_off(returns).mesh, parse_off(kPyramid).mesh);
 }
 
 TEST(ParseOff, PassesOverColoursAndNormals) {

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "base/letter_case.h"
 #include "csg/import/mesh_file.h"
 #include "tests/csg/import/byte_changes.h"
 
@@ -54,6 +55,18 @@ TEST(ParseStl, ReadsTheVerticesOfText) {
   const RawMesh raw = parse_stl(kText);
   EXPECT_EQ(raw.mesh.vertices, kCorners);
   EXPECT_EQ(raw.mesh.triangles.size(), 1U);
+}
+
+TEST(ParseStl, ReadsTextInCapitalsAndWithOtherEndsOfLines) {
+  std::string capitals = kText;
+  for (char& c : capitals) c = upper_case(c);
+  std::string returns = kText;
+  std::ranges::replace(returns, '\n', '\r');
+  std::string both;
+  for (const char c : kText) both += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const std::string& text : {capitals, returns, both}) {
+    EXPECT_EQ(parse_stl(text).mesh.vertices, kCorners) << text;
+  }
 }
 
 TEST(ParseStl, ReadsBinary) {

@@ -198,6 +198,10 @@ TEST_F(PolyhedronTest, BadIndicesAndFacesAreReported) {
             (std::vector<std::string>{"Point index 77 is out of bounds (from "
                                       "faces[5][4])",
                                       "PolySet has degenerate polygons"}));
+  ASSERT_EQ(diagnostics.all()[1].notes.size(), 1U);
+  EXPECT_EQ(diagnostics.all()[1].notes[0].message,
+            "faces[6] names fewer than 3 points: expected a list such as "
+            "[0, 1, 2]");
 }
 
 TEST_F(PolyhedronTest, TwoBoxesOnOneEdgeAreClosed) {
