@@ -792,6 +792,32 @@ def app_link_scaled(m):
     return link
 
 
+@model("App::Link, an array of elements")
+def app_link_array(m):
+    block = m.part("Box", LEAN, Length=4, Width=5, Height=6)
+    array = m.add("App::Link", "Array", TILT)
+    array.setLink(block)
+    array.ElementCount = 3
+    for i, element in enumerate(array.ElementList):
+        element.Placement = Placement(Vector(9 * i, 2 * i, i), Rotation(Z, 25 * i))
+    block.Visibility = False
+    return array
+
+
+@model("App::Link, an array of lists")
+def app_link_array_collapsed(m):
+    block = m.part("Box", LEAN, Length=4, Width=5, Height=6)
+    array = m.add("App::Link", "Array", TILT)
+    array.setLink(block)
+    array.ShowElement = False
+    array.ElementCount = 3
+    array.PlacementList = [Placement(Vector(9 * i, 2 * i, i), Rotation(Z, 25 * i))
+                           for i in range(3)]
+    array.ScaleList = [Vector(1, 1, 1) * (1 + i / 4) for i in range(3)]
+    block.Visibility = False
+    return array
+
+
 @model("App::LinkGroup that hides a link")
 def app_link_group(m):
     group = m.add("App::LinkGroup", "LinkGroup", TILT)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,9 +61,8 @@ double without_dust(double entry) {
   return std::abs(entry - whole) < kDust ? whole : entry;
 }
 
-Mat4 read_placement(const pugi::xml_node& value) {
-  const glm::dquat turn(read_number(value, "Q3"), read_number(value, "Q0"),
-                        read_number(value, "Q1"), read_number(value, "Q2"));
+// turn  need not be of unit length; where it is 0 nothing is turned
+Mat4 make_placement(const glm::dquat& turn, Vec3 shift) {
   Mat4 matrix(1);
   constexpr double kLeastNorm = 1e-7;
   if (const double norm = glm::length(turn); norm > kLeastNorm) {
@@ -72,9 +73,15 @@ Mat4 read_placement(const pugi::xml_node& value) {
       matrix[column][row] = without_dust(matrix[column][row]);
     }
   }
-  matrix[3] = Vec4(read_number(value, "Px"), read_number(value, "Py"),
-                   read_number(value, "Pz"), 1);
+  matrix[3] = Vec4(shift, 1);
   return matrix;
+}
+
+Mat4 read_placement(const pugi::xml_node& value) {
+  return make_placement({read_number(value, "Q3"), read_number(value, "Q0"),
+                         read_number(value, "Q1"), read_number(value, "Q2")},
+                        {read_number(value, "Px"), read_number(value, "Py"),
+                         read_number(value, "Pz")});
 }
 
 // Whether the boundary is one of more than points and curves. As text it names
@@ -267,6 +274,51 @@ void Document::read_visibility() {
       }
     }
   }
+}
+
+std::vector<double> Document::numbers_of(std::string_view entry,
+                                         std::size_t width) const {
+  if (entry.empty()) return {};
+  const std::string bytes = unpack(entry);
+  std::uint32_t count = 0;
+  if (bytes.size() >= sizeof count) {
+    std::memcpy(&count, bytes.data(), sizeof count);
+  }
+  if (bytes.size() != sizeof count + count * width * sizeof(double)) {
+    throw FormatError(fmt::format(
+        "FCStd, '{}' is not as long as its {} values need", entry, count));
+  }
+  std::vector<double> numbers(count * width);
+  std::memcpy(numbers.data(), bytes.data() + sizeof count,
+              numbers.size() * sizeof(double));
+  for (const double number : numbers) {
+    if (!std::isfinite(number) || plane::is_too_far(number)) {
+      throw FormatError(
+          fmt::format("FCStd, a number in '{}' is beyond 1e9", entry));
+    }
+  }
+  return numbers;
+}
+
+std::vector<Mat4> Document::placements_of(const Object& object,
+                                          std::string_view property) const {
+  const std::vector<double> n = numbers_of(object.file(property), 7);
+  std::vector<Mat4> placements;
+  for (std::size_t i = 0; i < n.size(); i += 7) {
+    placements.push_back(make_placement(
+        {n[i + 6], n[i + 3], n[i + 4], n[i + 5]}, {n[i], n[i + 1], n[i + 2]}));
+  }
+  return placements;
+}
+
+std::vector<Vec3> Document::vectors_of(const Object& object,
+                                       std::string_view property) const {
+  const std::vector<double> n = numbers_of(object.file(property), 3);
+  std::vector<Vec3> vectors;
+  for (std::size_t i = 0; i < n.size(); i += 3) {
+    vectors.emplace_back(n[i], n[i + 1], n[i + 2]);
+  }
+  return vectors;
 }
 
 const Object* Document::find(std::string_view name) const {

@@ -203,7 +203,11 @@ void Reader::find_operands() {
     }
   }
   for (const Object& object : document_.objects()) {
-    if (object.is_visible() && !features.contains(object.name())) {
+    // Where the file says what is shown, that alone decides, but for bodies.
+    const bool is_claiming =
+        !document_.has_view() || object.type().starts_with("PartDesign::");
+    if (is_claiming && object.is_visible() &&
+        !features.contains(object.name())) {
       claim_operands(object);
     }
   }
@@ -267,7 +271,9 @@ void Reader::make_shown(const std::vector<const Object*>& objects,
       if (object->is_visible()) flat_.push_back(object);
       continue;
     }
-    if (!object->is_visible()) {
+    // Of a plain group that is hidden the members are shown that are visible.
+    if (!object->is_visible() &&
+        !object->has_extension("App::GroupExtension")) {
       hidden_.push_back(object);
       continue;
     }
@@ -435,10 +441,6 @@ Reader::Made Reader::make_link(const Object& object, std::string& why) {
     why = fmt::format("it links to a part of {}", shown(*target));
     return std::nullopt;
   }
-  if (object.number("ElementCount", 0) > 0) {
-    why = "it is an array of links";
-    return std::nullopt;
-  }
   const Made solid = make(*target);
   if (!solid) {
     why = fmt::format("{} is no solid", shown(*target));
@@ -458,7 +460,44 @@ Reader::Made Reader::make_link(const Object& object, std::string& why) {
   const Mat4 from_target = object.flag("LinkTransform")
                                ? Mat4(1)
                                : glm::inverse(target->placement());
+  if (object.number("ElementCount", 0) > 0) {
+    const Made all = make_link_array(object, *solid, from_target, why);
+    if (!all) return std::nullopt;
+    return maker_.place(matrix * scale, *all);
+  }
   return maker_.place(matrix * scale * from_target, *solid);
+}
+
+// Elements are objects of their own, or stand in lists of the array.
+Reader::Made Reader::make_link_array(const Object& object, const Solid& solid,
+                                     const Mat4& from_target,
+                                     std::string& why) {
+  std::vector<Solid> solids;
+  if (!members_of(object).empty()) {
+    for (const Object* const element : objects_of(object)) {
+      if (const Made made = make(*element)) solids.push_back(*made);
+    }
+  } else {
+    const std::string_view shows = object.text("VisibilityList");
+    const std::vector<Mat4> places =
+        document_.placements_of(object, "PlacementList");
+    const std::vector<Vec3> scales = document_.vectors_of(object, "ScaleList");
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (i < shows.size() && shows[shows.size() - 1 - i] == '0') continue;
+      Mat4 scale(1);
+      if (i < scales.size()) {
+        for (int axis = 0; axis < 3; ++axis) {
+          scale[axis][axis] = scales[i][axis];
+        }
+      }
+      solids.push_back(maker_.place(places[i] * scale * from_target, solid));
+    }
+  }
+  if (solids.empty()) {
+    why = "none of its elements is shown";
+    return std::nullopt;
+  }
+  return maker_.unite(solids);
 }
 
 }  // namespace lamina::csg::freecad

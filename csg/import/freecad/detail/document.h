@@ -104,6 +104,16 @@ class Document {
   // Whether that boundary is one of solids, and as text, so that it says so.
   bool has_stored_solid(const Object& object) const;
 
+  // Whether the file says what is shown; one that a script saved does not.
+  bool has_view() const { return !view_.document_element().empty(); }
+
+  // Lists that stand in an entry of their own. Throw FormatError where it is
+  // not what such a list is.
+  std::vector<Mat4> placements_of(const Object& object,
+                                  std::string_view property) const;
+  std::vector<Vec3> vectors_of(const Object& object,
+                               std::string_view property) const;
+
   // The bytes of an entry, unpacked anew. Throws FormatError likewise.
   std::string unpack(std::string_view entry) const;
 
@@ -116,6 +126,9 @@ class Document {
 
   const Boundary& look_into(std::string_view entry) const;
   void read_objects();
+  // Little-endian: their number, and so many values of `width` numbers each.
+  std::vector<double> numbers_of(std::string_view entry,
+                                 std::size_t width) const;
   void read_visibility();
 
   ZipArchive archive_;

@@ -67,6 +67,11 @@ class Reader {
 
   Made make_group(const Object& object, std::string& why);
   Made make_link(const Object& object, std::string& why);
+  // Places `solid`, which the array links to, as often as it says.
+  //
+  // from_target  undoes the placement that the target has
+  Made make_link_array(const Object& object, const Solid& solid,
+                       const Mat4& from_target, std::string& why);
 
   // --- part_features.cpp ----------------------------------------------------
   Made make_part_primitive(const Object& object, std::string& why);

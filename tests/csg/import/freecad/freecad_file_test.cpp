@@ -148,6 +148,32 @@ TEST(FreecadFile, TakesVisibilityFromTheGuisDocument) {
   EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
 }
 
+// Where FreeCAD's window shows both, both are there.
+TEST(FreecadFile, ShowsWhatTheGuiShowsThoughOthersAreMadeOfIt) {
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2")
+      .add("Part::Cut", "C", cut("A", "B"))
+      .entry(
+          "GuiDocument.xml",
+          "<Document><ViewProviderData><ViewProvider name=\"B\"><Properties>" +
+              flag("Visibility", false) +
+              "</Properties></ViewProvider></ViewProviderData></Document>");
+  EXPECT_EQ(read(document.bytes()).csg,
+            kBox +
+                "difference() {\n\tcube(size = [3, 4, 5], center = false);\n"
+                "\tcube(size = [2, 4, 5], center = false);\n}\n\n");
+}
+
+TEST(FreecadFile, ShowsTheVisibleMembersOfAHiddenPlainGroup) {
+  FreecadDocument document;
+  document.box("A").box("B", "2", flag("Visibility", false));
+  document.add("App::DocumentObjectGroup", "G",
+               links("Group", {"A", "B"}) + flag("Visibility", false),
+               extension("App::GroupExtension"));
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
 TEST(FreecadFile, MakesWhatGroupsOfAnyTypeHold) {
   FreecadDocument assembly;
   assembly.box("A").add("Assembly::AssemblyObject", "G",
