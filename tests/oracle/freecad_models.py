@@ -293,7 +293,7 @@ def part_compound(m):
 def part_mirroring(m):
     base = m.part("Cut", TILT, Base=m.part("Box", Length=9, Width=6, Height=4),
                   Tool=m.part("Cylinder", Placement(Vector(2, 2, -1), Rotation()),
-                              Radius=1.5, Height=9))
+                              Radius=1.5, Height=9), Visibility=False)
     return m.part("Mirroring", LEAN, Source=base, Base=Vector(2, 1, 0),
                   Normal=Vector(1, 1, 0.5))
 

@@ -206,9 +206,15 @@ void Reader::find_operands() {
     // Where the file says what is shown, that alone decides, but for bodies.
     const bool is_claiming =
         !document_.has_view() || object.type().starts_with("PartDesign::");
-    if (is_claiming && object.is_visible() &&
-        !features.contains(object.name())) {
+    if (!is_claiming || !object.is_visible() ||
+        features.contains(object.name())) {
+      continue;
+    }
+    if (!object.is_a("Part::Mirroring")) {
       claim_operands(object);
+    } else if (const Object* source = document_.find(object.link("Source"))) {
+      // A mirror image stands beside what it is made of.
+      claim_operands(*source);
     }
   }
 }

@@ -148,6 +148,19 @@ TEST(FreecadFile, TakesVisibilityFromTheGuisDocument) {
   EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
 }
 
+TEST(FreecadFile, ShowsAMirrorImageBesideItsSource) {
+  FreecadDocument document;
+  document.box("A").box("B", "2");
+  document.add("Part::Cut", "C", cut("A", "B"))
+      .add("Part::Mirroring", "M",
+           link("Source", "C") + vector("Base", "0", "0", "0") +
+               vector("Normal", "1", "0", "0"));
+  EXPECT_EQ(read(document.bytes()).notes,
+            std::vector<std::string>{"left out, as others that are shown are "
+                                     "made of them: 'A' (Part::Box), 'B' "
+                                     "(Part::Box)"});
+}
+
 // Where FreeCAD's window shows both, both are there.
 TEST(FreecadFile, ShowsWhatTheGuiShowsThoughOthersAreMadeOfIt) {
   FreecadDocument document;
