@@ -27,6 +27,7 @@
 #include "csg/mesh/fill_hole.h"
 #include "csg/mesh/vertex_table.h"
 #include "csg/mesh/weld.h"
+#include "plane/limits.h"
 #include "plane/region/boolean.h"
 
 namespace lamina::csg {
@@ -241,6 +242,14 @@ struct Volumes {
   }
 };
 
+// Sections are not made so far out; the design may bring the mesh nearer.
+bool is_too_far(const Mesh& mesh) {
+  return std::ranges::any_of(mesh.vertices, [](const Vec3& vertex) {
+    return plane::is_too_far(vertex.x) || plane::is_too_far(vertex.y) ||
+           plane::is_too_far(vertex.z);
+  });
+}
+
 // Estimates both from the same few sections.
 Volumes estimate_volumes(const Mesh& mesh) {
   constexpr int kSections = 32;
@@ -340,7 +349,7 @@ void repair_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
   const std::size_t triangle_count = mesh.triangles.size();
   const Repairs repairs = repair(mesh, vertices);
   report(repairs, triangle_count, range, diagnostics);
-  if (!repairs.were_needed()) return;
+  if (!repairs.were_needed() || is_too_far(mesh)) return;
   const Volumes volumes = estimate_volumes(mesh);
   if (volumes.are_alike()) return;
   diagnostics.warning(

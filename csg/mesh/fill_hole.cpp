@@ -49,8 +49,9 @@ class LeastArea {
   Vec3 at(std::size_t i) const { return mesh_.vertices[loop_[i]]; }
 
   void search(std::size_t i, std::size_t k) {
+    // Areas beyond all numbers leave any corner.
     Chord& best = chord(i, k);
-    best.area = std::numeric_limits<double>::infinity();
+    best = {std::numeric_limits<double>::infinity(), i + 1};
     for (std::size_t corner = i + 1; corner < k; ++corner) {
       const double area = chord(i, corner).area + chord(corner, k).area +
                           area_of(at(i), at(corner), at(k));

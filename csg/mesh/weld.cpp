@@ -106,8 +106,8 @@ class Pairing {
             return seen < kMostPartners && do_meet(box, around);
           },
           [&](std::uint32_t k) {
-            if (k <= i) return;
             ++seen;
+            if (k <= i) return;
             const Pair pair = measure(i, k);
             // Edges shorter than that show no direction.
             const double shorter =

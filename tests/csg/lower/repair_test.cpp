@@ -115,6 +115,14 @@ TEST(Repair, SaysOnceOverWhatDistanceItJoined) {
                                      "open edges within 0.00015 mm"});
 }
 
+TEST(Repair, MendsWhatIsFarAway) {
+  Mesh mesh = tetrahedron();
+  for (Vec3& vertex : mesh.vertices) vertex *= 1e12;
+  mesh.triangles.pop_back();
+  EXPECT_EQ(warnings_of(mesh),
+            std::vector<std::string>{"The given mesh is not closed!"});
+}
+
 TEST(Repair, SaysNothingOfWhatOpenScadWouldMerge) {
   EXPECT_TRUE(warnings_of(apart(tetrahedron(), 1e-8)).empty());
 }

@@ -49,6 +49,14 @@ TEST(FillHole, OfAPolygonHasItsArea) {
       5, 1e-12);
 }
 
+TEST(FillHole, EndsWhereAreasAreBeyondAllNumbers) {
+  fill({{0, 0, 0},
+        {1e200, 0, 0},
+        {1e200, 1e200, 1e199},
+        {0, 1e200, 0},
+        {-1e200, 0, 1e200}});
+}
+
 TEST(FillHole, FollowsACrackThatIsBent) {
   for (const int steps : {5, 40, 300, 3000}) {
     const double width = 0.01;
