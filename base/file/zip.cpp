@@ -182,6 +182,7 @@ ZipArchive ZipArchive::open(std::string_view bytes) {
     entry.method = static_cast<std::uint16_t>(record.number16(10));
     entry.crc = static_cast<std::uint32_t>(record.number32(16));
     entry.packed_bytes = numbers[1];
+    entry.bytes = numbers[0];
     entry.begin = numbers[2] + directory.shift;
     opened.names_.emplace_back(record.text(kDirectoryBytes, name_bytes));
     opened.entries_.try_emplace(opened.names_.back(), entry);
@@ -189,6 +190,10 @@ ZipArchive ZipArchive::open(std::string_view bytes) {
     at += kDirectoryBytes + name_bytes + extra_bytes + record.number16(32);
   }
   return opened;
+}
+
+std::size_t ZipArchive::most_bytes() const {
+  return std::min(kMostBytes, kChunk + kMostSwelling * bytes_.size());
 }
 
 std::optional<std::string> ZipArchive::read(const std::string& name) const {
@@ -213,19 +218,19 @@ std::optional<std::string> ZipArchive::read(const std::string& name) const {
     fail("is broken");
   }
   const std::string_view packed = bytes_.substr(begin, entry.packed_bytes);
-  const std::size_t most =
-      std::min(kMostBytes, kChunk + kMostSwelling * bytes_.size());
+  const std::size_t most = most_bytes();
   std::optional<std::string> contents;
   if (entry.method == kStored) {
     contents = std::string(packed);
   } else {
-    contents = Inflater().unpack(packed, most);
+    contents = Inflater().unpack(
+        packed, std::min(most, static_cast<std::size_t>(entry.bytes)));
   }
   if (!contents) fail("is broken");
   if (contents->size() > most) fail("is too large");
   const auto crc = crc32_z(0, reinterpret_cast<const Bytef*>(contents->data()),
                            contents->size());
-  if (crc != entry.crc) fail("is broken");
+  if (crc != entry.crc || contents->size() != entry.bytes) fail("is broken");
   return contents;
 }
 

@@ -28,6 +28,9 @@ class ZipArchive {
   // more.
   double unpacked_bytes() const { return unpacked_bytes_; }
 
+  // As much as one entry may unpack to, and all that are read together should.
+  std::size_t most_bytes() const;
+
   // The contents of an entry; nothing where there is none of that name. Case
   // counts; of equal names the first one does.
   //
@@ -40,6 +43,7 @@ class ZipArchive {
   struct Entry {
     std::uint64_t begin = 0;  // of its header
     std::uint64_t packed_bytes = 0;
+    std::uint64_t bytes = 0;
     std::uint32_t crc = 0;
     std::uint16_t flags = 0;
     std::uint16_t method = 0;

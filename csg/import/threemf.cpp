@@ -155,6 +155,10 @@ class Assembler {
   void read_part(const std::string part) {
     const auto bytes = archive_.read(part);
     if (!bytes) throw FormatError(fmt::format("3MF holds no '{}'", part));
+    bytes_read_ += bytes->size();
+    if (bytes_read_ > archive_.most_bytes()) {
+      throw FormatError("3MF, the parts are too large");
+    }
     pugi::xml_document& document = parts_[part];
     parse_xml(*bytes, "3MF", document);
     const auto take_name = [&](const pugi::xml_node& reference) {
@@ -275,6 +279,7 @@ class Assembler {
   const ZipArchive& archive_;
   const Placing placing_;
   const std::string root_;
+  std::size_t bytes_read_ = 0;
   std::map<std::string, pugi::xml_document> parts_;
   std::vector<std::string> order_;  // in which they are read
   std::set<std::string> known_;     // the same names

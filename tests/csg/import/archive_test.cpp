@@ -15,6 +15,8 @@
 namespace lamina::csg {
 namespace {
 
+using namespace std::string_literals;
+
 const std::vector<Vec3> kCorners = {{0, 0, 0}, {1.5, 0, 0}, {0, 2, -0.25}};
 
 const std::string kAmf = R"(<?xml version="1.0"?>
@@ -245,6 +247,23 @@ TEST(Parse3mf, LeavesOutWhatSlicersAddForThemselves) {
             2U);
 }
 
+TEST(Parse3mf, RefusesPartsThatSwellTogether) {
+  std::string components;
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (int i = 0; i < 20; ++i) {
+    const std::string name = "p" + std::to_string(i);
+    components += "<component path=\"/" + name + "\" objectid=\"1\"/>";
+    entries.push_back(
+        {name, "<model>" + std::string(200'000, ' ') + "</model>"});
+  }
+  entries.push_back(
+      {"3D/3dmodel.model", model_of("<object id=\"1\"><components>" +
+                                        components + "</components></object>",
+                                    "")});
+  EXPECT_EQ(fault_of([&] { parse_3mf(make_zip(entries)); }),
+            "3MF, the parts are too large");
+}
+
 TEST(ParseAmf, PlacesInstancesInItsUnit) {
   std::string text = kAmf;
   text.replace(text.find("</amf>"), 6,
@@ -336,6 +355,14 @@ TEST(ZipArchive, SaysWhatItCannotUnpack) {
   broken[broken.find("contents")] = 'C';
   EXPECT_EQ(fault_of([&] { ZipArchive::open(broken).read("a"); }),
             "ZIP entry 'a' is broken");
+}
+
+TEST(ZipArchive, UnpacksNoMoreThanItsDirectorySays) {
+  std::string bytes = make_wide_zip("a", "contents");
+  bytes[bytes.rfind("\x01\0\x18\0"s) + 4] = 7;
+  const ZipArchive archive = ZipArchive::open(bytes);
+  EXPECT_EQ(archive.unpacked_bytes(), 7);
+  EXPECT_EQ(fault_of([&] { archive.read("a"); }), "ZIP entry 'a' is broken");
 }
 
 TEST(ZipArchive, RefusesToSwellWithoutEnd) {
