@@ -1,36 +1,13 @@
 #include "csg/mesh/manifold_cut.h"
 
-#include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "base/union_find.h"
 #include "csg/mesh/edge_table.h"
 
 namespace lamina::csg {
 namespace {
-
-// Sets of numbers that grow together.
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t size) : parents_(size) {
-    std::iota(parents_.begin(), parents_.end(), 0U);
-  }
-
-  std::uint32_t find(std::uint32_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;
-};
 
 bool is_plain(std::span<const Side> sides) {
   return sides.size() == 2 && sides[0].is_rising() != sides[1].is_rising();

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -13,6 +12,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/union_find.h"
 #include "csg/mesh/box_tree.h"
 #include "csg/mesh/drop_triangles.h"
 #include "csg/mesh/edge_table.h"
@@ -61,10 +61,8 @@ class Pairing {
       : mesh_(mesh),
         tolerance_(tolerance),
         edges_(find_open_edges(mesh)),
-        parents_(mesh.vertices.size()),
-        is_joined_(edges_.size()) {
-    std::iota(parents_.begin(), parents_.end(), 0U);
-  }
+        vertices_(mesh.vertices.size()),
+        is_joined_(edges_.size()) {}
 
   // The greatest distance over which edges were joined; none where none were.
   std::optional<double> run() {
@@ -77,7 +75,7 @@ class Pairing {
       distance = pair.distance;
     }
     for (auto& triangle : mesh_.triangles) {
-      for (std::uint32_t& corner : triangle) corner = root_of(corner);
+      for (std::uint32_t& corner : triangle) corner = vertices_.find(corner);
     }
     return distance;
   }
@@ -135,18 +133,11 @@ class Pairing {
     return {std::min(along, against), i, k, against < along};
   }
 
-  std::uint32_t root_of(std::uint32_t vertex) {
-    while (parents_[vertex] != vertex) {
-      vertex = parents_[vertex] = parents_[parents_[vertex]];
-    }
-    return vertex;
-  }
-
   // False where the two ends of an edge would become one.
   bool join(const Pair& pair) {
     const auto ends_of = [this](std::uint32_t edge) {
-      return std::array{root_of(edges_[edge].ends[0]),
-                        root_of(edges_[edge].ends[1])};
+      return std::array{vertices_.find(edges_[edge].ends[0]),
+                        vertices_.find(edges_[edge].ends[1])};
     };
     const auto a = ends_of(pair.first);
     auto b = ends_of(pair.second);
@@ -154,17 +145,14 @@ class Pairing {
     if (a[0] == a[1] || b[0] == b[1] || a[0] == b[1] || a[1] == b[0]) {
       return false;
     }
-    for (std::size_t i = 0; i < 2; ++i) {
-      const auto [kept, other] = std::minmax(a[i], b[i]);
-      parents_[other] = kept;
-    }
+    for (std::size_t i = 0; i < 2; ++i) vertices_.unite(a[i], b[i]);
     return true;
   }
 
   Mesh& mesh_;
   const double tolerance_;
   const std::vector<OpenEdge> edges_;
-  std::vector<std::uint32_t> parents_;  // union-find
+  UnionFind vertices_;  // that have become one
   std::vector<bool> is_joined_;
 };
 

@@ -401,9 +401,8 @@ void LayerGraph::take_overhangs(const Layer& layer,
     finding.place = overhang.place;
     finding.box = {Vec3(overhang.box.low, layer.bottom),
                    Vec3(overhang.box.high, layer.top)};
-    const auto number = static_cast<std::uint32_t>(overhangs_.size());
+    const std::uint32_t number = overhang_sets_.add();
     overhangs_.push_back(finding);
-    overhang_parents_.push_back(number);
     patches_.push_back({overhang.box.low - margin, overhang.box.high + margin});
     patch_overhangs_.push_back(number);
   }
@@ -419,20 +418,12 @@ void LayerGraph::take_overhangs(const Layer& layer,
                          patch_overhangs_.begin() + kept);
 }
 
-std::uint32_t LayerGraph::overhang_root_of(std::uint32_t overhang) {
-  while (overhang_parents_[overhang] != overhang) {
-    overhang = overhang_parents_[overhang] =
-        overhang_parents_[overhang_parents_[overhang]];
-  }
-  return overhang;
-}
-
 void LayerGraph::join_overhangs(std::uint32_t a, std::uint32_t b) {
-  a = overhang_root_of(a);
-  b = overhang_root_of(b);
+  a = overhang_sets_.find(a);
+  b = overhang_sets_.find(b);
   if (a == b) return;
   const auto [kept, other] = std::minmax(a, b);
-  overhang_parents_[other] = kept;
+  overhang_sets_.unite(kept, other);
   Finding& finding = overhangs_[kept];
   const Finding& joined = overhangs_[other];
   merge(finding, joined);
@@ -477,7 +468,7 @@ PrintCheck LayerGraph::finish() {
     }
   }
   for (std::uint32_t i = 0; i < overhangs_.size(); ++i) {
-    if (overhang_parents_[i] != i) continue;
+    if (overhang_sets_.find(i) != i) continue;
     Finding& finding = overhangs_[i];
     finding.is_minor =
         finding.area < kLeastOverhangArea && finding.distance < kLeastOverhang;

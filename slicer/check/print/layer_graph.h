@@ -28,6 +28,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/union_find.h"
 #include "base/vec.h"
 #include "plane/cell_grid.h"
 #include "slicer/check/print/layer_overlay.h"
@@ -146,7 +147,6 @@ class LayerGraph {
   void end_island(std::uint32_t component);
   void add_cup(const Component& component);
   void join_overhangs(std::uint32_t a, std::uint32_t b);
-  std::uint32_t overhang_root_of(std::uint32_t overhang);
 
   const double self_supporting_;
   OverlaySweep sweep_;
@@ -167,7 +167,7 @@ class LayerGraph {
   std::vector<Component> components_;        // the first is the outside
   std::vector<Finding> findings_;
   std::vector<Finding> overhangs_;
-  std::vector<std::uint32_t> overhang_parents_;
+  UnionFind overhang_sets_;  // those that are one
   // The overhangs of the last layer: their boxes, wider by half of what may lie
   // between two that are one, and their numbers in overhangs_.
   std::vector<Box2> patches_;

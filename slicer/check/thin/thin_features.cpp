@@ -186,7 +186,7 @@ FeatureCollector::FeatureCollector(double width,
 std::uint32_t FeatureCollector::join_features(std::uint32_t a,
                                               std::uint32_t b) {
   if (a == kNone || a == b) return b;
-  const std::uint32_t kept = feature_union_.join(a, b);
+  const std::uint32_t kept = feature_union_.unite(a, b);
   extend(features_[kept], features_[std::max(a, b)]);
   return kept;
 }
@@ -194,7 +194,7 @@ std::uint32_t FeatureCollector::join_features(std::uint32_t a,
 std::uint32_t FeatureCollector::join_thin_places(std::uint32_t a,
                                                  std::uint32_t b) {
   if (a == kNone || a == b) return b;
-  const std::uint32_t kept = thin_place_union_.join(a, b);
+  const std::uint32_t kept = thin_place_union_.unite(a, b);
   const Span gone = thin_places_[std::max(a, b)];
   thin_places_[kept] = {std::min(thin_places_[kept].bottom, gone.bottom),
                         std::max(thin_places_[kept].top, gone.top)};
@@ -230,8 +230,7 @@ std::uint32_t FeatureCollector::join_neighbours(Member& stretch, double gap) {
     grid.visit_near(
         stretch.from, stretch.to, distance, [&](const Member& other) {
           if (other.kind != stretch.kind) return;
-          const std::uint32_t place =
-              thin_place_union_.root_of(other.thin_place);
+          const std::uint32_t place = thin_place_union_.find(other.thin_place);
           const bool is_alike = other.sources == stretch.sources;
           if (is_alike && &grid == &here_ &&
               are_same_disks(stretch.from, stretch.to, stretch.reach,
@@ -239,8 +238,7 @@ std::uint32_t FeatureCollector::join_neighbours(Member& stretch, double gap) {
             equal = here_.number_of(other);
           }
           const std::uint32_t feature =
-              is_alike ? feature_union_.root_of(other.feature)
-                       : stretch.feature;
+              is_alike ? feature_union_.find(other.feature) : stretch.feature;
           if (place == stretch.thin_place && feature == stretch.feature) {
             return;
           }
@@ -327,8 +325,8 @@ void FeatureCollector::take(const Layer& layer,
 void FeatureCollector::take_again(const Layer& layer) {
   for (std::size_t i = 0; i < last_stretches_.size(); ++i) {
     Member& member = here_.members()[numbers_[i]];
-    member.thin_place = thin_place_union_.root_of(member.thin_place);
-    member.feature = feature_union_.root_of(member.feature);
+    member.thin_place = thin_place_union_.find(member.thin_place);
+    member.feature = feature_union_.find(member.feature);
     count(feature_of(last_stretches_[i], layer), member);
   }
 }
@@ -336,9 +334,8 @@ void FeatureCollector::take_again(const Layer& layer) {
 std::vector<ThinFeature> FeatureCollector::finish() {
   std::vector<ThinFeature> features;
   for (std::uint32_t i = 0; i < features_.size(); ++i) {
-    if (feature_union_.root_of(i) != i) continue;
-    const Span& place =
-        thin_places_[thin_place_union_.root_of(thin_place_of_[i])];
+    if (feature_union_.find(i) != i) continue;
+    const Span& place = thin_places_[thin_place_union_.find(thin_place_of_[i])];
     features.push_back(features_[i]);
     features.back().height = place.top - place.bottom;
   }

@@ -11,7 +11,6 @@
 // collet is, has as many features: each fault is reported with the line that
 // can repair it.
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -19,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/union_find.h"
 #include "base/vec.h"
 #include "csg/scene.h"
 #include "plane/cell_grid.h"
@@ -78,27 +78,6 @@ class FeatureCollector {
   std::vector<ThinFeature> finish();
 
  private:
-  // Numbers that turn out to be one: a forest (union-find).
-  class Union {
-   public:
-    std::uint32_t add() {
-      parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
-      return parents_.back();
-    }
-    std::uint32_t root_of(std::uint32_t i) {
-      while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-      return i;
-    }
-    // Joins two roots; returns the lesser, which is the root of both.
-    std::uint32_t join(std::uint32_t a, std::uint32_t b) {
-      const std::uint32_t kept = std::min(a, b);
-      parents_[std::max(a, b)] = kept;
-      return kept;
-    }
-
-   private:
-    std::vector<std::uint32_t> parents_;
-  };
   // A stretch, its feature and its thin place.
   struct Member {
     Vec2 from;
@@ -166,10 +145,10 @@ class FeatureCollector {
   std::vector<std::uint32_t> numbers_;
   StretchGrid here_;
   StretchGrid below_;
-  Union feature_union_;
+  UnionFind feature_union_;
   std::vector<ThinFeature> features_;
   std::vector<std::uint32_t> thin_place_of_;  // each feature
-  Union thin_place_union_;
+  UnionFind thin_place_union_;
   std::vector<Span> thin_places_;
 };
 
