@@ -35,4 +35,21 @@ inline std::optional<XmlFault> load_xml(
   return {{static_cast<std::size_t>(result.offset), result.description()}};
 }
 
+// A name of an element or attribute without the prefix of its namespace.
+inline std::string_view local_name(std::string_view name) {
+  return name.substr(name.rfind(':') + 1);
+}
+inline std::string_view local_name(const pugi::xml_node& node) {
+  return local_name(std::string_view(node.name()));
+}
+
+// Calls visit(child) for each child element of that name, whatever its prefix.
+template <typename Visit>
+void for_each_child(const pugi::xml_node& node, std::string_view name,
+                    Visit visit) {
+  for (const pugi::xml_node child : node.children()) {
+    if (local_name(child) == name) visit(child);
+  }
+}
+
 }  // namespace lamina

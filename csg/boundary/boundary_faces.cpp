@@ -12,9 +12,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/mesh/box_tree.h"
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
+#include "csg/mesh/box_tree.h"
 #include "plane/program/program_state.h"
 #include "plane/program/ternary_program.h"
 #include "plane/region/boolean.h"

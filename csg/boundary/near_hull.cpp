@@ -11,8 +11,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/mesh/box_tree.h"
 #include "csg/boundary/convex_hull.h"
+#include "csg/mesh/box_tree.h"
 #include "csg/mesh/vertex_table.h"
 #include "plane/region/convex_faces.h"
 

@@ -15,8 +15,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "csg/mesh/box_tree.h"
 #include "csg/boundary/leaf_faces.h"
+#include "csg/mesh/box_tree.h"
 #include "csg/scene.h"
 #include "plane/region/region.h"
 

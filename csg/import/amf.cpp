@@ -26,11 +26,15 @@ std::string_view child_text(const pugi::xml_node& node, const char* child) {
   throw FormatError(fmt::format("AMF, expected {}, not '{}'", expected, text));
 }
 
-double read_coordinate(const pugi::xml_node& vertex, const char* name) {
-  const std::string_view text = child_text(vertex.child("coordinates"), name);
+double read_number(std::string_view text, std::string_view expected) {
   const auto number = to_number<double>(text);
-  if (!number) fail("a coordinate", text);
+  if (!number) fail(expected, text);
   return *number;
+}
+
+double read_coordinate(const pugi::xml_node& vertex, const char* name) {
+  return read_number(child_text(vertex.child("coordinates"), name),
+                     "a coordinate");
 }
 
 RawMesh read_object(const pugi::xml_node& object) {
@@ -52,10 +56,7 @@ RawMesh read_object(const pugi::xml_node& object) {
 // A number of an instance; 0 where it does not say.
 double read_placing(const pugi::xml_node& instance, const char* name) {
   const std::string_view text = child_text(instance, name);
-  if (text.empty()) return 0;
-  const auto number = to_number<double>(text);
-  if (!number) fail("a number", text);
-  return *number;
+  return text.empty() ? 0 : read_number(text, "a number");
 }
 
 // Turned about x, y and z, one after the other, and moved.

@@ -82,7 +82,8 @@ class Reader {
   void read_element(const pugi::xml_node& element, Place place) {
     const std::string_view name = element.name();
     ++place.depth;
-    if (name == "svg") page_ = read_svg_page(element, options_.dpi, options_.language);
+    if (name == "svg")
+      page_ = read_svg_page(element, options_.dpi, options_.language);
     if (name == "defs") place.is_in_defs = true;
     if (is_known(name)) {
       if (is_selected(element, place)) {

@@ -83,8 +83,9 @@ BodyTransform read_transform(const pugi::xml_node& node) {
 std::string_view attribute_of(const pugi::xml_node& node,
                               std::string_view name) {
   for (const pugi::xml_attribute& attribute : node.attributes()) {
-    const std::string_view whole = attribute.name();
-    if (whole.substr(whole.rfind(':') + 1) == name) return attribute.value();
+    if (local_name(std::string_view(attribute.name())) == name) {
+      return attribute.value();
+    }
   }
   return {};
 }

@@ -1,27 +1,23 @@
 #include "csg/import/detail/units.h"
 
-#include <map>
-
 #include <fmt/format.h>
+
+#include "base/file/length_units.h"
 
 namespace lamina::csg {
 
 void heed_unit(std::string_view unit, Placing placing, PlacedMeshes& meshes) {
-  static const std::map<std::string_view, double> kMillimetres = {
-      {"", 1},        {"micron", 0.001}, {"millimeter", 1},
-      {"inch", 25.4}, {"foot", 304.8},   {"feet", 304.8},
-      {"meter", 1e3}, {"centimeter", 10}};
-  const auto found = kMillimetres.find(unit);
-  const bool is_known = found != kMillimetres.end();
-  if (is_known && found->second == 1) return;
-  if (!is_known || placing != Placing::kFile) {
+  // AMF has another word for it than 3MF.
+  const double length = length_of_unit(unit == "feet" ? "foot" : unit);
+  if (length == 1) return;
+  if (length == 0 || placing != Placing::kFile) {
     meshes.passed_over.push_back(
         fmt::format("has lengths in the unit '{}', taken for millimetres{}",
-                    unit, is_known ? " as in OpenSCAD" : ""));
+                    unit, length == 0 ? "" : " as in OpenSCAD"));
     return;
   }
   for (RawMesh& raw : meshes.bodies) {
-    for (Vec3& vertex : raw.mesh.vertices) vertex *= found->second;
+    for (Vec3& vertex : raw.mesh.vertices) vertex *= length;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/file/length_units.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {

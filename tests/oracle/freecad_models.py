@@ -792,29 +792,31 @@ def app_link_scaled(m):
     return link
 
 
+PLACES = [Placement(Vector(9 * i, 2 * i, i), Rotation(Z, 25 * i)) for i in range(3)]
+
+
+def link_array(m, has_objects):
+    """Three links to a hidden block."""
+    array = m.add("App::Link", "Array", TILT)
+    array.setLink(m.part("Box", LEAN, Length=4, Width=5, Height=6, Visibility=False))
+    array.ShowElement = has_objects
+    array.ElementCount = len(PLACES)
+    return array
+
+
 @model("App::Link, an array of elements")
 def app_link_array(m):
-    block = m.part("Box", LEAN, Length=4, Width=5, Height=6)
-    array = m.add("App::Link", "Array", TILT)
-    array.setLink(block)
-    array.ElementCount = 3
-    for i, element in enumerate(array.ElementList):
-        element.Placement = Placement(Vector(9 * i, 2 * i, i), Rotation(Z, 25 * i))
-    block.Visibility = False
+    array = link_array(m, True)
+    for element, place in zip(array.ElementList, PLACES):
+        element.Placement = place
     return array
 
 
 @model("App::Link, an array of lists")
 def app_link_array_collapsed(m):
-    block = m.part("Box", LEAN, Length=4, Width=5, Height=6)
-    array = m.add("App::Link", "Array", TILT)
-    array.setLink(block)
-    array.ShowElement = False
-    array.ElementCount = 3
-    array.PlacementList = [Placement(Vector(9 * i, 2 * i, i), Rotation(Z, 25 * i))
-                           for i in range(3)]
+    array = link_array(m, False)
+    array.PlacementList = PLACES
     array.ScaleList = [Vector(1, 1, 1) * (1 + i / 4) for i in range(3)]
-    block.Visibility = False
     return array
 
 

@@ -24,6 +24,14 @@ std::vector<Value> run_named_arguments(
   return values;
 }
 
+namespace {
+void run_from(const CallCode& code, std::size_t first, Frame& frame) {
+  for (std::size_t i = first; i < code.arguments.size(); ++i) {
+    run(code.arguments[i].value, frame);
+  }
+}
+}  // namespace
+
 Value wrong_count(const CallCode& code, Frame& frame,
                   std::string_view expected) {
   if (frame.in.is_2021()) {
@@ -36,9 +44,7 @@ Value wrong_count(const CallCode& code, Frame& frame,
 Value wrong_count_of_new(const CallCode& code, Frame& frame,
                          std::string_view expected) {
   // The arguments are evaluated before they are counted.
-  for (const WrittenArgument& argument : code.arguments) {
-    run(argument.value, frame);
-  }
+  run_from(code, 0, frame);
   return warn_in_file(
       code, frame,
       "{}() number of parameters does not match: expected {}, found {}",
@@ -55,10 +61,7 @@ Value wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
 }
 
 void run_rest(const CallCode& code, std::size_t next, Frame& frame) {
-  if (frame.in.is_2021()) return;
-  for (std::size_t i = next; i < code.arguments.size(); ++i) {
-    run(code.arguments[i].value, frame);
-  }
+  if (!frame.in.is_2021()) run_from(code, next, frame);
 }
 
 Value newly_wrong_type(const CallCode& code, Frame& frame, std::size_t argument,

@@ -22,21 +22,6 @@ inline void parse_xml(std::string_view bytes, std::string_view format,
   }
 }
 
-// The element's name without a namespace's prefix.
-inline std::string_view local_name(const pugi::xml_node& node) {
-  const std::string_view name = node.name();
-  return name.substr(name.rfind(':') + 1);
-}
-
-// Calls visit(child) for each child element of that name.
-template <typename Visit>
-void for_each_child(const pugi::xml_node& node, std::string_view name,
-                    Visit visit) {
-  for (const pugi::xml_node child : node.children()) {
-    if (local_name(child) == name) visit(child);
-  }
-}
-
 // Appends the vertices and the triangles of a <mesh>, as AMF and 3MF have them.
 //
 // parents     name of the elements that hold triangles

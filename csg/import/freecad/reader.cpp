@@ -60,6 +60,19 @@ bool has_geometry(const Object& object) {
          object.value("Points");
 }
 
+// A list of what is shown has the last element first; an element that it lacks
+// is shown.
+bool is_listed_hidden(const Object& object, std::size_t element) {
+  const std::string_view shows = object.text("VisibilityList");
+  return element < shows.size() && shows[shows.size() - 1 - element] == '0';
+}
+
+Mat4 scaling(Vec3 factors) {
+  Mat4 matrix(1);
+  for (int i = 0; i < 3; ++i) matrix[i][i] = factors[i];
+  return matrix;
+}
+
 [[noreturn]] void fail_made_from_itself(const Object& object) {
   throw FormatError(
       fmt::format("FCStd, {} is made from itself", shown(object)));
@@ -235,8 +248,6 @@ void Reader::claim_operands(const Object& shown) {
 
 std::vector<const Object*> Reader::objects_of(const Object& group) {
   const std::vector<std::string_view> names = members_of(group);
-  // A group of links says itself which of them it shows, the last one first.
-  const std::string_view shows = group.text("VisibilityList");
   std::vector<const Object*> objects;
   std::vector<std::string_view> missing;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -245,9 +256,8 @@ std::vector<const Object*> Reader::objects_of(const Object& group) {
       if (!names[i].empty()) missing.push_back(names[i]);
       continue;
     }
-    const bool is_hidden =
-        i < shows.size() && shows[shows.size() - 1 - i] == '0';
-    (is_hidden ? hidden_ : objects).push_back(object);
+    // A group of links says itself which of them it shows.
+    (is_listed_hidden(group, i) ? hidden_ : objects).push_back(object);
   }
   if (!missing.empty()) {
     model_.warnings.push_back(
@@ -457,7 +467,7 @@ Reader::Made Reader::make_link(const Object& object, std::string& why) {
   Mat4 matrix = object.placement(own);
   Mat4 scale(1);
   if (const auto factors = object.vector("ScaleVector")) {
-    for (int i = 0; i < 3; ++i) scale[i][i] = (*factors)[i];
+    scale = scaling(*factors);
     if (factors->x == 0 || factors->y == 0 || factors->z == 0) {
       why = "its ScaleVector leaves no volume";
       return std::nullopt;
@@ -484,18 +494,12 @@ Reader::Made Reader::make_link_array(const Object& object, const Solid& solid,
       if (const Made made = make(*element)) solids.push_back(*made);
     }
   } else {
-    const std::string_view shows = object.text("VisibilityList");
     const std::vector<Mat4> places =
         document_.placements_of(object, "PlacementList");
     const std::vector<Vec3> scales = document_.vectors_of(object, "ScaleList");
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if (i < shows.size() && shows[shows.size() - 1 - i] == '0') continue;
-      Mat4 scale(1);
-      if (i < scales.size()) {
-        for (int axis = 0; axis < 3; ++axis) {
-          scale[axis][axis] = scales[i][axis];
-        }
-      }
+      if (is_listed_hidden(object, i)) continue;
+      const Mat4 scale = i < scales.size() ? scaling(scales[i]) : Mat4(1);
       solids.push_back(maker_.place(places[i] * scale * from_target, solid));
     }
   }

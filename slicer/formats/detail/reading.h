@@ -11,8 +11,6 @@
 
 namespace lamina::slicer {
 
-inline constexpr double kMillimetresPerInch = 25.4;
-
 // Throws FileError, whose message begins with the file's name.
 [[noreturn]] void fail_to_read(const std::string& path,
                                std::string_view message);

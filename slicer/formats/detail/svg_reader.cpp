@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "base/file/length_units.h"
 #include "base/file/xml.h"
 #include "base/text.h"
 #include "slicer/formats/detail/reading.h"

@@ -11,6 +11,7 @@
 #include <pugixml.hpp>
 
 #include "base/file/format_error.h"
+#include "base/file/length_units.h"
 #include "base/file/xml.h"
 #include "base/file/zip.h"
 #include "base/text.h"
@@ -21,31 +22,6 @@ namespace lamina::slicer {
 namespace {
 
 constexpr const char* kModel = "3D/3dmodel.model";
-
-// The name without the prefix of its namespace.
-std::string_view local_name(const pugi::xml_node& node) {
-  const std::string_view name = node.name();
-  return name.substr(name.rfind(':') + 1);
-}
-
-template <typename Visit>
-void visit_children(const pugi::xml_node& parent, std::string_view name,
-                    const Visit& visit) {
-  for (const pugi::xml_node& node : parent.children()) {
-    if (local_name(node) == name) visit(node);
-  }
-}
-
-// The length of a unit [mm]; 0 where there is none of that name.
-double length_of_unit(std::string_view name) {
-  if (name.empty() || name == "millimeter") return 1;
-  if (name == "micron") return 0.001;
-  if (name == "centimeter") return 10;
-  if (name == "inch") return kMillimetresPerInch;
-  if (name == "foot") return 12 * kMillimetresPerInch;
-  if (name == "meter") return 1000;
-  return 0;
-}
 
 // The model of an archive; nothing where it is not an archive with one.
 std::optional<std::string> read_model(std::string_view bytes) {
@@ -76,8 +52,8 @@ class ThreemfReader {
 
   LayerFileFacts read(const TakeLayer& take) {
     std::size_t stacks = 0;
-    visit_children(root(), "resources", [&](const pugi::xml_node& resources) {
-      visit_children(resources, "slicestack", [&](const pugi::xml_node& stack) {
+    for_each_child(root(), "resources", [&](const pugi::xml_node& resources) {
+      for_each_child(resources, "slicestack", [&](const pugi::xml_node& stack) {
         if (++stacks > 1) {
           fail_to_read(path_, "it holds several stacks of slices");
         }
@@ -87,12 +63,12 @@ class ThreemfReader {
     if (stacks == 0) fail_to_read(path_, "it holds no slices");
     LayerFileFacts facts = facts_;
     facts.format = "3MF with slices";
-    visit_children(root(), "resources", [&](const pugi::xml_node& resources) {
-      visit_children(resources, "object", [&](const pugi::xml_node& object) {
+    for_each_child(root(), "resources", [&](const pugi::xml_node& resources) {
+      for_each_child(resources, "object", [&](const pugi::xml_node& object) {
         facts.deviation = deviation_of(object.attribute("name").value());
       });
     });
-    visit_children(root(), "metadata", [&](const pugi::xml_node& metadata) {
+    for_each_child(root(), "metadata", [&](const pugi::xml_node& metadata) {
       if (metadata.attribute("name").value() == std::string_view("Application"))
         facts.writer = metadata.child_value();
     });
@@ -136,13 +112,13 @@ class ThreemfReader {
   }
 
   void read_stack(const pugi::xml_node& stack, const TakeLayer& take) {
-    visit_children(stack, "sliceref", [&](const pugi::xml_node& /*other*/) {
+    for_each_child(stack, "sliceref", [&](const pugi::xml_node& /*other*/) {
       fail_to_read(path_,
                    "slices in other parts of the package (sliceref) are not "
                    "supported");
     });
     double bottom = stack.attribute("zbottom") ? number(stack, "zbottom") : 0;
-    visit_children(stack, "slice", [&](const pugi::xml_node& slice) {
+    for_each_child(stack, "slice", [&](const pugi::xml_node& slice) {
       Layer layer;
       layer.bottom = bottom;
       layer.top = bottom = number(slice, "ztop");
@@ -155,15 +131,15 @@ class ThreemfReader {
 
   void read_slice(const pugi::xml_node& slice, plane::Contours& contours) {
     vertices_.clear();
-    visit_children(slice, "vertices", [&](const pugi::xml_node& vertices) {
-      visit_children(vertices, "vertex", [&](const pugi::xml_node& vertex) {
+    for_each_child(slice, "vertices", [&](const pugi::xml_node& vertices) {
+      for_each_child(vertices, "vertex", [&](const pugi::xml_node& vertex) {
         vertices_.emplace_back(number(vertex, "x"), number(vertex, "y"));
       });
     });
-    visit_children(slice, "polygon", [&](const pugi::xml_node& polygon) {
+    for_each_child(slice, "polygon", [&](const pugi::xml_node& polygon) {
       loop_.assign(
           1, vertices_.empty() ? Vec2(0) : vertices_[index(polygon, "startv")]);
-      visit_children(polygon, "segment", [&](const pugi::xml_node& segment) {
+      for_each_child(polygon, "segment", [&](const pugi::xml_node& segment) {
         loop_.push_back(vertices_[index(segment, "v2")]);
       });
       if (loop_.size() > 1 && loop_.front() == loop_.back()) {

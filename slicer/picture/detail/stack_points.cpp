@@ -74,7 +74,7 @@ class StackDrawer {
   void add_cap(const plane::Contours& contours, const Plate& plate) {
     const std::optional<double> z = visible_side(plate);
     if (!z) return;
-    if (cut_ == nullptr || !have_same_points(*cut_, contours)) {
+    if (cut_ == nullptr || *cut_ != contours) {
       cut_into_trapezoids(contours, trapezoids_);
       cut_ = &contours;
     }
@@ -84,11 +84,6 @@ class StackDrawer {
                 Vec3(cut.top_right, cut.top, *z),
                 Vec3(cut.top_left, cut.top, *z)});
     }
-  }
-
-  static bool have_same_points(const plane::Contours& a,
-                               const plane::Contours& b) {
-    return a.ends == b.ends && a.points == b.points;
   }
 
   void flush() {
