@@ -41,19 +41,21 @@ LoopRounder::LoopRounder()
     : resolver_({.tie_distance = 0, .merge_distance = 0},
                 plane::FillRule::kPositive) {}
 
-void LoopRounder::round(plane::Contours& contours, double clearance) {
+bool LoopRounder::round(plane::Contours& contours, double clearance) {
   has_snapped_ = false;
-  if (contours.is_empty()) return;
+  if (contours.is_empty()) return false;
   int exponent = 0;
   std::frexp(greatest_coordinate(contours.points), &exponent);
   spacing_ = std::ldexp(1.0, exponent - kFloatDigits);
-  if (clearance >= kTreeReach * spacing_ || is_safe(contours)) {
+  const bool is_known = clearance >= kTreeReach * spacing_;
+  if (is_known || is_safe(contours)) {
     for (Vec2& point : contours.points) point = to_float(point);
-    return;
+    return !is_known;
   }
   has_snapped_ = true;
   ++snapped_layers_;
   snap(contours);
+  return true;
 }
 
 // --- Proof ------------------------------------------------------------------

@@ -36,7 +36,9 @@ class LoopRounder {
   // narrower than their spacing may vanish or be parted.
   //
   // clearance  as of Layer
-  void round(plane::Contours& contours, double clearance = 0);
+  // returns    whether that alone did not prove that each point can be rounded
+  //            by itself
+  bool round(plane::Contours& contours, double clearance = 0);
 
   // Counts a layer that is equal to the last one.
   void count_again() { snapped_layers_ += has_snapped_ ? 1 : 0; }

@@ -20,15 +20,17 @@ constexpr double kCoarse = 0x1p-10;
 
 void FloatContours::take(const Layer& layer) {
   // Upright walls give layer after layer the same contours.
-  if (has_loops_ && layer.clearance == clearance_ && layer.contours == taken_) {
+  if (is_kept_ && layer.clearance == clearance_ && layer.contours == taken_) {
     rounder_.count_again();
     return;
   }
-  clearance_ = layer.clearance;
-  taken_ = layer.contours;
   reach_ = std::max(reach_, greatest_coordinate(layer.contours.points));
   rounded_ = layer.contours;
-  rounder_.round(rounded_, layer.clearance);
+  is_kept_ = rounder_.round(rounded_, layer.clearance);
+  if (is_kept_) {
+    clearance_ = layer.clearance;
+    taken_ = layer.contours;
+  }
   const std::size_t loops = rounded_.loop_count();
   points_.resize(rounded_.points.size() + loops);
   ends_.resize(loops);

@@ -65,8 +65,10 @@ class FloatContours {
   void extend();
 
   LoopRounder rounder_;
-  double clearance_ = 0;   // of the last layer
-  plane::Contours taken_;  // its contours
+  // The last layer, where it took work to round it.
+  bool is_kept_ = false;
+  double clearance_ = 0;
+  plane::Contours taken_;
   plane::Contours rounded_;
   std::vector<FloatPoint> points_;
   std::vector<std::size_t> ends_;
