@@ -79,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   tree.arena = std::make_shared<Arena>();
   csg::FreecadOptions options;
   options.most_leaves = 1000;
-  options.boundary_text = [](std::string_view name) {
+  options.boundary_text = [](std::string_view, std::string_view name) {
     return std::string(name);
   };
   try {

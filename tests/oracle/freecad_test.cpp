@@ -3,6 +3,8 @@
 //
 // freecad_models.py builds a file for each feature. Its rows of
 // docs/conformance-freecad.md are written to the build folder.
+// freecad_mixtures.py builds files of objects that stand for others, at random:
+// what FreeCAD shows of them is judged by its volume.
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +19,7 @@
 
 #include "base/arena.h"
 #include "csg/import/freecad/freecad_file.h"
+#include "plane/loop_area.h"
 #include "tests/oracle/judge.h"
 #include "tests/support/design.h"
 #include "tests/support/process.h"
@@ -46,7 +49,9 @@ plane::Contours contours_of(const json& loops) {
 bool is_by_parameter(const fs::path& file) {
   const std::string bytes = support::read_file(file.string());
   csg::FreecadOptions options;
-  options.boundary_text = [](std::string_view) { return std::string(); };
+  options.boundary_text = [](std::string_view, std::string_view) {
+    return std::string();
+  };
   Arena arena;
   const csg::FreecadModel model = csg::read_freecad(bytes, options, arena);
   return std::none_of(
@@ -113,6 +118,38 @@ TEST(FreecadFiles, HaveTheSectionsOfTheirShapes) {
     table << fmt::format(
         "| `{}` | {} | {} | {:.1f} |\n", file.stem().string(), row.feature,
         row.is_by_parameter ? "parameter" : "boundary", row.deviation * 1000);
+  }
+}
+
+// Of the layers of the file, each cut in its middle.
+double volume_of(const fs::path& file) {
+  const auto design = support::Design::from_text(
+      fmt::format("import(\"{}\");", file.string()), kChordalError);
+  slicer::Settings settings;
+  settings.layer_thickness = 0.1;
+  double volume = 0;
+  for (const auto& layer : support::slice_layers(design.scene(), settings)) {
+    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+      volume += signed_area(layer.contours.loop(i)) * settings.layer_thickness;
+    }
+  }
+  return volume;
+}
+
+TEST(FreecadFiles, HaveTheVolumeThatFreecadShows) {
+  const support::TemporaryFolder folder;
+  const auto made = support::run_process(
+      {"python3", LAMINA_ORACLE_SOURCES "/freecad_mixtures.py", folder.path(),
+       "100"});
+  ASSERT_EQ(made.status, 0) << made.output << made.errors;
+  const json volumes =
+      json::parse(support::read_file(folder.path() + "/mixtures.json"));
+  ASSERT_EQ(volumes.size(), 100U);
+  for (const auto& [name, shown] : volumes.items()) {
+    const fs::path file = fs::path(folder.path()) / (name + ".FCStd");
+    EXPECT_NEAR(volume_of(file), shown.get<double>(),
+                0.005 * shown.get<double>())
+        << name;
   }
 }
 

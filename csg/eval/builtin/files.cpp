@@ -121,6 +121,27 @@ FreecadModel read_file(std::string_view bytes, const FreecadOptions& options,
                nullptr);
 }
 
+// The file that the one at `from` links to, under the rules of all files that a
+// design names.
+//
+// first  the path of the file that import() names
+std::optional<LinkedFreecadFile> open_linked(std::string_view from,
+                                             std::string_view linked,
+                                             const std::string& first,
+                                             const ModuleCall& call) {
+  Interpreter& in = call.in;
+  const FileAccess& access = in.file_access();
+  const std::string found =
+      find_file(linked, std::filesystem::path(from).parent_path().string(),
+                call.code.range, in);
+  in.add_file(found);
+  auto bytes = access.read_regular(found);
+  if (!bytes) return std::nullopt;
+  std::string path = access.canonical(found);
+  if (path == access.canonical(first)) path = first;
+  return LinkedFreecadFile{in.keep_text(path), *std::move(bytes)};
+}
+
 // Adds a group of what the file shows, or of the object of that name or label.
 // Warns of what is left out, and fails where the file is broken or lacks it.
 void import_freecad(const std::string& path,
@@ -141,9 +162,14 @@ void import_freecad(const std::string& path,
   options.most_leaves = in.leaves_left();
   options.range = range;
   options.caller = in.current_call;
-  options.boundary_text = [&](std::string_view name) {
-    return fmt::format("import(file = {}, part = {}, {})", file,
-                       in_quotes(name), timestamp_text(path, call.frame));
+  options.boundary_text = [&](std::string_view of, std::string_view name) {
+    return fmt::format("import(file = {}, part = {}, {})",
+                       relative_quoted(std::string(of), call.frame),
+                       in_quotes(name),
+                       timestamp_text(std::string(of), call.frame));
+  };
+  options.open_linked = [&](std::string_view from, std::string_view linked) {
+    return open_linked(from, linked, path, call);
   };
   const FreecadModel model = read_file(*bytes, options, call);
   // Whatever names objects, types and entries have.

@@ -133,6 +133,14 @@ bool Object::has_extension(std::string_view type) const {
                      });
 }
 
+bool Object::has_transient_shape() const {
+  const auto transient = properties_.children("_Property");
+  return std::any_of(
+      transient.begin(), transient.end(), [](const pugi::xml_node& property) {
+        return property.attribute("name").value() == std::string_view("Shape");
+      });
+}
+
 pugi::xml_node Object::value(std::string_view property) const {
   for (const pugi::xml_node child : properties_.children("Property")) {
     if (child.attribute("name").value() == property) {
@@ -180,11 +188,8 @@ Mat4 Object::placement(std::string_view property) const {
 }
 
 std::string_view Object::link(std::string_view property) const {
-  const pugi::xml_node element = value(property);
-  if (element.attribute("file").value()[0] != '\0') return {};
-  const char* const attribute =
-      element.name() == std::string_view("XLink") ? "name" : "value";
-  return element.attribute(attribute).value();
+  const ObjectLink link = object_link(property);
+  return link.file.empty() ? link.object : std::string_view();
 }
 
 std::vector<std::string_view> Object::links(std::string_view property) const {
@@ -203,6 +208,20 @@ SubLink Object::sub_link(std::string_view property) const {
   for (const pugi::xml_node sub : element.children("Sub")) {
     const std::string_view name = sub.attribute("value").value();
     if (!name.empty()) link.subs.push_back(name);
+  }
+  return link;
+}
+
+ObjectLink Object::object_link(std::string_view property) const {
+  const pugi::xml_node element = value(property);
+  const char* const name =
+      element.name() == std::string_view("XLink") ? "name" : "value";
+  ObjectLink link;
+  link.file = element.attribute("file").value();
+  link.object = element.attribute(name).value();
+  link.path = element.attribute("sub").value();
+  if (link.path.empty()) {
+    link.path = element.child("Sub").attribute("value").value();
   }
   return link;
 }

@@ -27,6 +27,12 @@
 
 namespace lamina::csg {
 
+// A file that another links to.
+struct LinkedFreecadFile {
+  std::string_view path;  // one for each file; must live as long as the nodes
+  std::string bytes;
+};
+
 struct FreecadOptions {
   std::string_view path;  // of the file; must live as long as the nodes
   // One object, by name or label, in the frame of what holds it. Not given:
@@ -39,8 +45,14 @@ struct FreecadOptions {
   SourceRange range = {};            // of the nodes
   const CallSite* caller = nullptr;  // likewise
   // The `.csg` text of a node that imports the boundary of the object of this
-  // name.
-  std::function<std::string(std::string_view name)> boundary_text;
+  // name in the file at `path`.
+  std::function<std::string(std::string_view path, std::string_view name)>
+      boundary_text;
+  // Opens `file`, which the file at `from` links to. Nothing where there is no
+  // such file; a missing function opens none.
+  std::function<std::optional<LinkedFreecadFile>(std::string_view from,
+                                                 std::string_view file)>
+      open_linked = {};
 };
 
 struct FreecadModel {
@@ -52,7 +64,7 @@ struct FreecadModel {
   std::vector<std::string> notes;
 };
 
-// Reads the file and makes nodes, in the arena.
+// Reads the file, and those that it links to, and makes nodes, in the arena.
 //
 // throws  FormatError where the file is broken, an object is made from itself,
 //         or there is no such part; LimitExceeded

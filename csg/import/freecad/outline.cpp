@@ -5,13 +5,20 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "base/union_find.h"
 #include "csg/limits.h"
+#include "plane/edge_tree.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
+#include "plane/region/boolean.h"
 
 namespace lamina::csg::freecad {
 namespace {
@@ -124,6 +131,75 @@ void append_curve(const Polyline& curve, bool is_reversed, Polyline& contour) {
                  corners.end());
 }
 
+// --- Crossings --------------------------------------------------------------
+
+using LoopPair = std::pair<std::uint32_t, std::uint32_t>;
+
+// Whether edges of the contours cross: where they do, what an odd number of
+// them surrounds has corners that none of them has.
+bool have_crossings(const std::vector<Polyline>& contours) {
+  const auto region =
+      plane::from_few_crossings(contours, plane::FillRule::kEvenOdd);
+  if (!region) return true;
+  std::vector<Vec2> corners;
+  for (const Polyline& contour : contours) {
+    corners.insert(corners.end(), contour.begin(), contour.end());
+  }
+  std::ranges::sort(corners, precedes);
+  return std::ranges::any_of(region->contours, [&](const Polyline& contour) {
+    return std::ranges::any_of(contour, [&](Vec2 corner) {
+      return !std::ranges::binary_search(corners, corner, precedes);
+    });
+  });
+}
+
+// Whether the segments cross or touch.
+bool do_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  return orientation(a, b, c) * orientation(a, b, d) <= 0 &&
+         orientation(c, d, a) * orientation(c, d, b) <= 0;
+}
+
+// The contours of which an edge meets one of the other, all that cross among
+// them.
+std::set<LoopPair> meeting_pairs(const std::vector<Polyline>& contours) {
+  plane::Contours loops;
+  for (const Polyline& contour : contours) loops.add_loop(contour);
+  const plane::EdgeTree edges(loops);
+  std::set<LoopPair> pairs;
+  // Each a second's work: bundles of edges to look at, and regions to cut.
+  constexpr std::size_t kMostLooks = 10'000'000;
+  constexpr std::size_t kMostPairs = 100'000;
+  std::size_t looks = 0;
+  const auto look = [&](const plane::EdgeTree::Bundle& a,
+                        const plane::EdgeTree::Bundle& b) {
+    if (++looks > kMostLooks || pairs.size() > kMostPairs) {
+      throw plane::LimitExceeded(
+          "Too many outlines of a sketch cross or surround each other");
+    }
+    if (a.loop == b.loop) return false;
+    const LoopPair pair = std::minmax(a.loop, b.loop);
+    if (pairs.contains(pair)) return false;
+    for (std::uint32_t i = a.begin; i < a.end; ++i) {
+      for (std::uint32_t k = b.begin; k < b.end; ++k) {
+        if (do_meet(edges.from(i), edges.to(i), edges.from(k), edges.to(k))) {
+          pairs.insert(pair);
+        }
+      }
+    }
+    return false;
+  };
+  edges.visit_near(0, look, plane::EdgeTree::Crowd::kVisit);
+  return pairs;
+}
+
+double perimeter(const Polyline& contour) {
+  double length = 0;
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    length += glm::length(contour[(i + 1) % contour.size()] - contour[i]);
+  }
+  return length;
+}
+
 // --- Outlines ---------------------------------------------------------------
 
 // Construction geometry helps to draw and is not part of the sketch.
@@ -160,6 +236,47 @@ std::optional<std::vector<Polyline>> read_curves(const Object& sketch,
 }
 
 }  // namespace
+
+bool unite_crossing(double error, std::vector<Polyline>& contours) {
+  if (contours.size() < 2 || !have_crossings(contours)) return false;
+  std::map<std::uint32_t, plane::Region> regions;  // of those that may cross
+  const auto region_of = [&](std::uint32_t i) -> const plane::Region& {
+    const auto [found, is_new] = regions.try_emplace(i);
+    if (is_new) found->second = plane::from_contours({&contours[i], 1});
+    return found->second;
+  };
+  UnionFind sets(contours.size());
+  bool has_crossings = false;
+  for (const auto& [i, k] : meeting_pairs(contours)) {
+    const std::array<plane::Region, 2> both = {region_of(i), region_of(k)};
+    const double common = area(plane::intersect(both));
+    const double least = std::min(area(both[0]), area(both[1]));
+    const double slack =
+        error * std::min(perimeter(contours[i]), perimeter(contours[k]));
+    if (std::min(common, least - common) <= slack) continue;
+    sets.unite(i, k);
+    has_crossings = true;
+  }
+  if (!has_crossings) return false;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> members;
+  for (std::uint32_t i = 0; i < contours.size(); ++i) {
+    members[sets.find(i)].push_back(i);
+  }
+  std::vector<Polyline> result;
+  for (const auto& [set, its_members] : members) {
+    if (its_members.size() == 1) {
+      result.push_back(std::move(contours[set]));
+      continue;
+    }
+    std::vector<plane::Region> faces;
+    for (const std::uint32_t i : its_members) faces.push_back(region_of(i));
+    plane::Region region = plane::unite(faces);
+    std::move(region.contours.begin(), region.contours.end(),
+              std::back_inserter(result));
+  }
+  contours = std::move(result);
+  return true;
+}
 
 std::optional<std::vector<Polyline>> join_curves(std::vector<Polyline> curves) {
   CurveEnds ends(curves);
@@ -202,7 +319,9 @@ std::optional<Outline> read_outline(const Object& sketch, double error,
     why = fmt::format("'{}' is not closed", sketch.label());
     return std::nullopt;
   }
-  return Outline{sketch.placement(), std::move(*contours)};
+  Outline outline{sketch.placement(), std::move(*contours)};
+  outline.had_crossings = unite_crossing(error, outline.contours);
+  return outline;
 }
 
 }  // namespace lamina::csg::freecad

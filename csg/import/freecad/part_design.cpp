@@ -35,19 +35,31 @@ enum ExtrusionType { kLength = 0, kThrough = 1, kTwoLengths = 4 };
 // --- Chains -----------------------------------------------------------------
 
 Reader::Made Reader::make_body(const Object& object, std::string& why) {
+  std::vector<Solid> solids;
   const Object* const tip = document_.find(object.link("Tip"));
-  if (tip == nullptr) {
+  if (tip != nullptr) {
+    if (const Made solid = make(*tip)) {
+      solids.push_back(*solid);
+    } else {
+      const std::string& its_why = entries_[tip].why;
+      why = fmt::format("its tip '{}' is no solid{}{}", tip->label(),
+                        its_why.empty() ? "" : ": ", its_why);
+      return std::nullopt;
+    }
+  }
+  for (const std::string_view name : members_of(object)) {
+    const Object* const member = document_.find(name);
+    if (member == nullptr || member == tip || !member->is_visible() ||
+        !is_binder(*member)) {
+      continue;
+    }
+    if (const Made solid = make(*member)) solids.push_back(*solid);
+  }
+  if (solids.empty()) {
     why = "it has no tip";
     return std::nullopt;
   }
-  const Made solid = make(*tip);
-  if (!solid) {
-    const std::string& its_why = entries_[tip].why;
-    why = fmt::format("its tip '{}' is no solid{}{}", tip->label(),
-                      its_why.empty() ? "" : ": ", its_why);
-    return std::nullopt;
-  }
-  return maker_.place(object.placement(), *solid);
+  return maker_.place(object.placement(), maker_.unite(solids));
 }
 
 Reader::Made Reader::make_base(const Object& object, std::string& why) {

@@ -97,7 +97,13 @@ const Outline* Reader::outline_of(std::string_view name, double error,
   const auto [found, is_new] = outlines_.try_emplace({object, error});
   auto& [outline, its_why] = found->second;
   if (is_new) {
-    outline = read_outline(*object, error, corners_, its_why);
+    outline = read_outline(*object, error, state_.corners, its_why);
+    if (outline && outline->had_crossings) {
+      model_.notes.push_back(
+          fmt::format("outlines of '{}' cross each other, so what they "
+                      "enclose is united",
+                      object->label()));
+    }
   }
   why = its_why;
   return outline ? &*outline : nullptr;

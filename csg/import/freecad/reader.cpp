@@ -28,8 +28,7 @@ std::string shown(const Object& object) {
   return fmt::format("'{}' ({})", object.label(), object.type());
 }
 
-// Curves, faces and helps to draw, which enclose nothing.
-bool is_flat(const Object& object) {
+bool has_flat_type(const Object& object) {
   static const std::set<std::string_view> kTypes = {
       "Part::Plane",
       "Part::Line",
@@ -45,9 +44,7 @@ bool is_flat(const Object& object) {
       "PartDesign::Plane",
       "PartDesign::Line",
       "PartDesign::Point",
-      "PartDesign::CoordinateSystem",
-      "PartDesign::ShapeBinder",
-      "PartDesign::SubShapeBinder"};
+      "PartDesign::CoordinateSystem"};
   const std::string_view type = object.type();
   return type.starts_with("Sketcher::SketchObject") ||
          type.starts_with("Part::Part2DObject") || kTypes.contains(type);
@@ -57,7 +54,7 @@ bool is_flat(const Object& object) {
 bool has_geometry(const Object& object) {
   if (object.type().starts_with("Fem::")) return false;
   return object.value("Shape") || object.value("Mesh") ||
-         object.value("Points");
+         object.value("Points") || object.has_transient_shape();
 }
 
 // A list of what is shown has the last element first; an element that it lacks
@@ -80,18 +77,30 @@ Mat4 scaling(Vec3 factors) {
 
 }  // namespace
 
-Reader::Reader(const Document& document, const FreecadOptions& options,
-               Arena& arena)
-    : document_(document),
-      options_(options),
-      maker_(arena, {options.range, options.caller}, options.chordal_error,
-             options.most_leaves) {}
+ImportState::ImportState(const FreecadOptions& asked, Arena& arena)
+    : options(asked),
+      maker(arena, {asked.range, asked.caller}, asked.chordal_error,
+            asked.most_leaves) {}
 
-FreecadModel Reader::read() {
+Reader::Reader(std::string bytes, std::string_view path, ImportState& state)
+    : bytes_(std::move(bytes)),
+      document_(bytes_),
+      path_(path),
+      state_(state),
+      maker_(state.maker),
+      model_(state.model) {
+  find_operands();
+}
+
+void Reader::read() {
   try {
-    find_operands();
+    const auto& part = state_.options.part;
     const std::vector<Solid> solids =
-        options_.part ? make_part(*options_.part) : make_all_shown();
+        part ? make_part(*part) : make_all_shown();
+    // What shown objects are made of is not left out.
+    std::erase_if(hidden_, [&](const Object* object) {
+      return entries_.contains(object);
+    });
     note_all("left out, as others that are shown are made of them", used_);
     note_all("hidden, so left out", hidden_);
     note_all("left out, as they enclose nothing", flat_);
@@ -100,11 +109,10 @@ FreecadModel Reader::read() {
       model_.leaves += solid.leaves;
     }
   } catch (const plane::LimitExceeded& fault) {
-    if (open_.empty()) throw;
+    if (state_.open.empty()) throw;
     throw plane::LimitExceeded(fmt::format(
-        "{}, in {}", fault.diagnostic().message, shown(*open_.back())));
+        "{}, in {}", fault.diagnostic().message, shown(*state_.open.back())));
   }
-  return std::move(model_);
 }
 
 std::vector<Solid> Reader::make_part(std::string_view name) {
@@ -142,7 +150,7 @@ std::vector<std::string_view> Reader::members_of(const Object& object) {
 }
 
 // A primitive is made of its parameters, whatever else it names.
-std::vector<std::string_view> Reader::operands_of(const Object& object) {
+std::vector<std::string_view> Reader::operands_of(const Object& object) const {
   if (is_flat(object) || !is_part(object) || is_group(object) ||
       maker_of(object) == &Reader::make_part_primitive) {
     return {};
@@ -215,14 +223,10 @@ void Reader::find_operands() {
       }
     }
   }
+  // Where the file says what is shown, that alone decides.
+  if (document_.has_view()) return;
   for (const Object& object : document_.objects()) {
-    // Where the file says what is shown, that alone decides, but for bodies.
-    const bool is_claiming =
-        !document_.has_view() || object.type().starts_with("PartDesign::");
-    if (!is_claiming || !object.is_visible() ||
-        features.contains(object.name())) {
-      continue;
-    }
+    if (!object.is_visible() || features.contains(object.name())) continue;
     if (!object.is_a("Part::Mirroring")) {
       claim_operands(object);
     } else if (const Object* source = document_.find(object.link("Source"))) {
@@ -331,14 +335,14 @@ Reader::Made Reader::make(const Object& object) {
   Entry& entry = found->second;
   if (is_new) {
     constexpr std::size_t kDeepest = 1000;
-    if (open_.size() == kDeepest) {
+    if (state_.open.size() == kDeepest) {
       throw plane::LimitExceeded(fmt::format(
           "Too deep: {} objects are made of one another, at most {} can be",
-          open_.size(), kDeepest));
+          state_.open.size(), kDeepest));
     }
-    open_.push_back(&object);
+    state_.open.push_back(&object);
     entry.solid = make_anew(object, entry.why);
-    open_.pop_back();
+    state_.open.pop_back();
     entry.is_done = true;
   }
   if (!entry.is_done) fail_made_from_itself(object);
@@ -387,6 +391,7 @@ Reader::Make Reader::maker_of(const Object& object) {
       is_primitive_behind("PartDesign::Subtractive")) {
     return &Reader::make_feature;
   }
+  if (object.has_extension("App::LinkExtension")) return &Reader::make_link;
   // An assembly, say, or a storey, whose shape merely repeats its members'. A
   // layer of a drawing has a Group too, but is none.
   if (object.value("Group") && object.has_extension("GroupExtension") &&
@@ -409,6 +414,16 @@ bool Reader::is_group(const Object& object) {
   return maker_of(object) == &Reader::make_group;
 }
 
+bool Reader::is_binder(const Object& object) {
+  return object.is_a("PartDesign::ShapeBinder") ||
+         object.is_a("PartDesign::SubShapeBinder");
+}
+
+bool Reader::is_flat(const Object& object) const {
+  return has_flat_type(object) ||
+         (is_binder(object) && !document_.has_stored_solid(object));
+}
+
 Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
   if (is_flat(object)) return std::nullopt;
   const std::string_view stored = document_.boundary_entry(object);
@@ -420,11 +435,12 @@ Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
   const auto [found, is_new] = boundaries_.try_emplace(stored);
   if (is_new) {
     ImportParams params;
-    params.path = options_.path;
+    params.path = path_;
     params.format = ImportFormat::kFcstd;
     params.entry = maker_.keep_text(stored);
     params.boundary = maker_.keep_text(document_.unpack(stored));
-    params.csg_text = maker_.keep_text(options_.boundary_text(object.name()));
+    params.csg_text =
+        maker_.keep_text(state_.options.boundary_text(path_, object.name()));
     found->second = maker_.leaf(Import{maker_.keep(params)});
   }
   return found->second;
@@ -443,28 +459,15 @@ Reader::Made Reader::make_group(const Object& object, std::string&) {
 }
 
 // A link shows its target at a place of its own or, if it keeps the target's,
-// in a frame of its own.
+// in a frame of its own. Draft's arrays are links under other names.
 Reader::Made Reader::make_link(const Object& object, std::string& why) {
-  const std::string_view name = object.link("LinkedObject");
-  const Object* const target = document_.find(name);
-  if (target == nullptr) {
-    why = name.empty() ? "it links to another file, or to nothing"
-                       : fmt::format("there is no object '{}'", name);
-    return std::nullopt;
-  }
-  const pugi::xml_node link = object.value("LinkedObject");
-  if (link.attribute("sub").value()[0] != '\0' || link.child("Sub")) {
-    why = fmt::format("it links to a part of {}", shown(*target));
-    return std::nullopt;
-  }
-  const Made solid = make(*target);
-  if (!solid) {
-    why = fmt::format("{} is no solid", shown(*target));
-    return std::nullopt;
-  }
+  const char* const target_name =
+      object.value("LinkedObject") ? "LinkedObject" : "Base";
+  const Made target = make_target(object.object_link(target_name),
+                                  object.flag("LinkTransform"), why);
+  if (!target) return std::nullopt;
   const char* const own =
       object.value("Placement") ? "Placement" : "LinkPlacement";
-  Mat4 matrix = object.placement(own);
   Mat4 scale(1);
   if (const auto factors = object.vector("ScaleVector")) {
     scale = scaling(*factors);
@@ -473,20 +476,104 @@ Reader::Made Reader::make_link(const Object& object, std::string& why) {
       return std::nullopt;
     }
   }
-  const Mat4 from_target = object.flag("LinkTransform")
-                               ? Mat4(1)
-                               : glm::inverse(target->placement());
-  if (object.number("ElementCount", 0) > 0) {
-    const Made all = make_link_array(object, *solid, from_target, why);
-    if (!all) return std::nullopt;
-    return maker_.place(matrix * scale, *all);
+  const char* const count =
+      object.value("ElementCount") ? "ElementCount" : "Count";
+  const Made all = object.number(count, 0) > 0
+                       ? make_link_array(object, *target, why)
+                       : target;
+  if (!all) return std::nullopt;
+  return maker_.place(object.placement(own) * scale, *all);
+}
+
+Reader::Made Reader::make_target(const ObjectLink& link, bool keeps_place,
+                                 std::string& why) {
+  if (link.object.empty()) {
+    why = "it links to nothing";
+    return std::nullopt;
   }
-  return maker_.place(matrix * scale * from_target, *solid);
+  Reader* const reader = reader_of(link.file);
+  if (reader == nullptr) {
+    why = fmt::format("there is no file '{}' to link to", link.file);
+    return std::nullopt;
+  }
+  const Object* const target = reader->document_.find(link.object);
+  if (target == nullptr) {
+    why = link.file.empty()
+              ? fmt::format("there is no object '{}'", link.object)
+              : fmt::format("'{}' has no object '{}'", link.file, link.object);
+    return std::nullopt;
+  }
+  if (!link.path.empty()) {
+    const Mat4 frame = keeps_place ? target->placement() : Mat4(1);
+    return reader->make_on_path(*target, link.path, frame, why);
+  }
+  const Made solid = reader->make(*target);
+  if (!solid) {
+    why = fmt::format("{} is no solid", shown(*target));
+    return std::nullopt;
+  }
+  return keeps_place ? solid
+                     : maker_.place(glm::inverse(target->placement()), *solid);
+}
+
+Reader::Made Reader::make_on_path(const Object& first, std::string_view path,
+                                  const Mat4& frame, std::string& why) {
+  Mat4 matrix = frame;
+  const Object* object = &first;
+  for (;;) {
+    const std::size_t dot = path.find('.');
+    if (dot == path.npos) {
+      why = fmt::format("it links to {} of {}", path, shown(*object));
+      return std::nullopt;
+    }
+    // A dollar sign says that a label follows.
+    const std::string_view name = path.substr(0, dot);
+    const Object* const member = name.starts_with('$')
+                                     ? document_.find_part(name.substr(1))
+                                     : document_.find(name);
+    const auto members = members_of(*object);
+    if (member == nullptr || std::find(members.begin(), members.end(),
+                                       member->name()) == members.end()) {
+      why = fmt::format("it links to '{}' of {}", name, shown(*object));
+      return std::nullopt;
+    }
+    path.remove_prefix(dot + 1);
+    object = member;
+    if (path.empty()) break;
+    if (!member->has_extension("App::GroupExtension")) {
+      matrix = matrix * member->placement();
+    }
+  }
+  const Made solid = make(*object);
+  if (!solid) {
+    why = fmt::format("{} is no solid", shown(*object));
+    return std::nullopt;
+  }
+  return maker_.place(matrix, *solid);
+}
+
+Reader* Reader::reader_of(std::string_view file) {
+  if (file.empty()) return this;
+  const auto [found, is_new] = linked_.try_emplace(file);
+  if (!is_new) return found->second;
+  const auto& open = state_.options.open_linked;
+  auto linked = open ? open(path_, file) : std::nullopt;
+  if (!linked) return nullptr;
+  std::unique_ptr<Reader>& reader = state_.readers[linked->path];
+  if (reader == nullptr) {
+    try {
+      reader = std::make_unique<Reader>(std::move(linked->bytes), linked->path,
+                                        state_);
+    } catch (const FormatError& fault) {
+      throw FormatError(
+          fmt::format("{}, in '{}', which a link names", fault.what(), file));
+    }
+  }
+  return found->second = reader.get();
 }
 
 // Elements are objects of their own, or stand in lists of the array.
-Reader::Made Reader::make_link_array(const Object& object, const Solid& solid,
-                                     const Mat4& from_target,
+Reader::Made Reader::make_link_array(const Object& object, const Solid& target,
                                      std::string& why) {
   std::vector<Solid> solids;
   if (!members_of(object).empty()) {
@@ -500,7 +587,7 @@ Reader::Made Reader::make_link_array(const Object& object, const Solid& solid,
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (is_listed_hidden(object, i)) continue;
       const Mat4 scale = i < scales.size() ? scaling(scales[i]) : Mat4(1);
-      solids.push_back(maker_.place(places[i] * scale * from_target, solid));
+      solids.push_back(maker_.place(places[i] * scale, target));
     }
   }
   if (solids.empty()) {
@@ -516,8 +603,12 @@ namespace lamina::csg {
 
 FreecadModel read_freecad(std::string_view bytes, const FreecadOptions& options,
                           Arena& arena) {
-  const freecad::Document document(bytes);
-  return freecad::Reader(document, options, arena).read();
+  freecad::ImportState state(options, arena);
+  auto& reader = state.readers[options.path];
+  reader = std::make_unique<freecad::Reader>(std::string(bytes), options.path,
+                                             state);
+  reader->read();
+  return std::move(state.model);
 }
 
 }  // namespace lamina::csg

@@ -28,6 +28,15 @@ struct SubLink {
   std::vector<std::string_view> subs;  // without empty ones
 };
 
+// An object that another stands for, or an object in it.
+struct ObjectLink {
+  std::string_view file;    // that holds it; empty: this one
+  std::string_view object;  // empty: none
+  // From it to what is meant, each name followed by a dot: "Body.Pad.". What
+  // follows the last dot is a face or an edge.
+  std::string_view path;
+};
+
 // Views of the document's texts. The readers of properties give nothing where
 // the object lacks the property, and throw FormatError where its value is
 // malformed: no finite number, or one beyond plane::kGreatestCoordinate.
@@ -44,6 +53,8 @@ class Object {
 
   // Whether FreeCAD gave it an extension whose type has this in it.
   bool has_extension(std::string_view type) const;
+  // Whether it has a shape that FreeCAD computes anew and does not store.
+  bool has_transient_shape() const;
 
   // The element that holds the value, null if there is none.
   pugi::xml_node value(std::string_view property) const;
@@ -66,6 +77,7 @@ class Object {
   std::string_view link(std::string_view property) const;
   std::vector<std::string_view> links(std::string_view property) const;
   SubLink sub_link(std::string_view property) const;
+  ObjectLink object_link(std::string_view property) const;
   // The archive's entry that a property is in; empty: none.
   std::string_view file(std::string_view property) const;
 

@@ -4,10 +4,12 @@
 // Each object is made once, in the frame of what holds it: a body's features in
 // the body's, the parts of a group in the group's. It is made by parameter if
 // its maker can, and else by its boundary. Makers give nothing where there is
-// no CSG form, and say why.
+// no CSG form, and say why. Links lead to other files, too: each file has a
+// document and a reader of its own, and all readers of an import share a state.
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -22,11 +24,28 @@
 
 namespace lamina::csg::freecad {
 
+class Reader;
+
+// What the readers of all files of an import share.
+struct ImportState {
+  ImportState(const FreecadOptions& asked, Arena& arena);
+
+  const FreecadOptions& options;
+  SolidMaker maker;
+  FreecadModel model;
+  std::size_t corners = 0;  // cut for outlines, also for none
+  // What is being made, each for the one before it.
+  std::vector<const Object*> open;
+  std::map<std::string_view, std::unique_ptr<Reader>> readers;  // by path
+};
+
 class Reader {
  public:
-  Reader(const Document& document, const FreecadOptions& options, Arena& arena);
+  // bytes, path  of the file
+  Reader(std::string bytes, std::string_view path, ImportState& state);
 
-  FreecadModel read();
+  // Makes what the file shows, or the part that the options name.
+  void read();
 
  private:
   using Made = std::optional<Solid>;
@@ -43,6 +62,10 @@ class Reader {
   static Make maker_of(const Object& object);
   static bool is_part(const Object& object);
   static bool is_group(const Object& object);
+  // A reference to what other bodies have.
+  static bool is_binder(const Object& object);
+  // Curves, faces and helps to draw, which enclose nothing.
+  bool is_flat(const Object& object) const;
   bool makes_surface(const Object& extrusion_or_revolution) const;
   Made by_boundary(const Object& object, const std::string& why);
   // Appends the solids of these objects that are shown and that no object is
@@ -55,7 +78,7 @@ class Reader {
                 const std::vector<const Object*>& objects);
   // What a group, a body or an array of links holds.
   static std::vector<std::string_view> members_of(const Object& object);
-  static std::vector<std::string_view> operands_of(const Object& object);
+  std::vector<std::string_view> operands_of(const Object& object) const;
   // Throws FormatError where an object holds itself or is made of itself, over
   // whatever others: none of these would be shown, nor what else they hold.
   void require_no_ring() const;
@@ -67,11 +90,20 @@ class Reader {
 
   Made make_group(const Object& object, std::string& why);
   Made make_link(const Object& object, std::string& why);
-  // Places `solid`, which the array links to, as often as it says.
+  // What a link stands for, at its place in the frame of the link.
   //
-  // from_target  undoes the placement that the target has
-  Made make_link_array(const Object& object, const Solid& solid,
-                       const Mat4& from_target, std::string& why);
+  // keeps_place  whether the target's own placement counts
+  Made make_target(const ObjectLink& link, bool keeps_place, std::string& why);
+  // Makes the object at the end of the link's path, placed by all on the way
+  // but the first; that one counts with `frame`.
+  Made make_on_path(const Object& first, std::string_view path,
+                    const Mat4& frame, std::string& why);
+  // The reader of the file, which may be this one; null where there is no such
+  // file.
+  Reader* reader_of(std::string_view file);
+  // Places `target` as often as the array says.
+  Made make_link_array(const Object& object, const Solid& target,
+                       std::string& why);
 
   // --- part_features.cpp ----------------------------------------------------
   Made make_part_primitive(const Object& object, std::string& why);
@@ -96,6 +128,7 @@ class Reader {
   Made revolve(const Outline& outline, const Turn& turn, std::string& why);
 
   // --- part_design.cpp ------------------------------------------------------
+  // The tip and, beside it, the solids that the body shows and binds.
   Made make_body(const Object& object, std::string& why);
   Made make_base(const Object& object, std::string& why);
   Made make_body_boolean(const Object& object, std::string& why);
@@ -120,14 +153,16 @@ class Reader {
     std::string why;  // there is none
   };
 
-  const Document& document_;
-  const FreecadOptions& options_;
-  SolidMaker maker_;
-  FreecadModel model_;
+  std::string bytes_;
+  Document document_;
+  std::string_view path_;
+  ImportState& state_;
+  SolidMaker& maker_;
+  FreecadModel& model_;
+  std::map<std::string_view, Reader*> linked_;  // by the name that links have
   std::map<const Object*, Entry> entries_;
   // By the chordal error, too.
   std::map<std::pair<const Object*, double>, OutlineEntry> outlines_;
-  std::size_t corners_ = 0;  // cut for outlines, also for none
   std::map<std::string_view, Solid> boundaries_;  // by their entries
   std::vector<const Object*> hidden_;             // of those that were left out
   std::vector<const Object*> flat_;               // likewise
@@ -135,8 +170,6 @@ class Reader {
   std::set<std::string_view> operands_;  // of other objects that are shown
   std::set<std::string_view> members_;   // of groups and bodies
   std::map<const Object*, std::vector<const Object*>> groups_;  // that hold it
-  // What is being made, each for the one before it.
-  std::vector<const Object*> open_;
 };
 
 }  // namespace lamina::csg::freecad

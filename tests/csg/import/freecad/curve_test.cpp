@@ -2,6 +2,7 @@
 
 #include "csg/import/freecad/detail/curve.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -13,6 +14,7 @@
 #include "base/file/format_error.h"
 #include "csg/import/freecad/detail/outline.h"
 #include "csg/limits.h"
+#include "plane/region/boolean.h"
 
 namespace lamina::csg::freecad {
 namespace {
@@ -108,6 +110,56 @@ TEST(JoinCurves, JoinsCurvesOfAnyOrderAndDirection) {
   ASSERT_EQ(contours->size(), 2U);
   EXPECT_EQ((*contours)[0], (Polyline{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
   EXPECT_EQ((*contours)[1], (Polyline{{5, 5}, {6, 5}, {5, 6}}));
+}
+
+// A square with its lower left corner there.
+Polyline square(double x, double y, double size) {
+  return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
+}
+
+// What an odd number of the contours surrounds.
+double even_odd_area(const std::vector<Polyline>& contours) {
+  return area(plane::from_contours(contours));
+}
+
+TEST(UniteCrossing, UnitesSquaresThatCrossByTheClosedFormula) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-12, 12);
+  for (int k = 0; k < 200; ++k) {
+    const double dx = shift(random);
+    const double dy = shift(random);
+    std::vector<Polyline> contours = {square(0, 0, 10), square(dx, dy, 10)};
+    const double common =
+        std::max(0.0, 10 - std::abs(dx)) * std::max(0.0, 10 - std::abs(dy));
+    const bool do_cross = std::min(common, 100 - common) > 0.01 * 40;
+    EXPECT_EQ(unite_crossing(0.01, contours), do_cross);
+    EXPECT_NEAR(even_odd_area(contours),
+                do_cross ? 200 - common : 200 - 2 * common, 1e-6);
+  }
+}
+
+TEST(UniteCrossing, KeepsHolesAndWhatTouches) {
+  const std::vector<std::vector<Polyline>> all = {
+      {square(0, 0, 10), square(2, 2, 3)},
+      {square(0, 0, 10), square(0, 2, 3)},    // a hole at the rim
+      {square(0, 0, 10), square(10, 5, 10)},  // side by side
+      {square(0, 0, 10), square(10, 10, 10)},
+      {arc(10, 0, 2 * std::numbers::pi, 0.01),
+       {{10.0001, -5}, {20, -5}, {20, 5}, {10.0001, 5}}}};
+  for (const std::vector<Polyline>& contours : all) {
+    std::vector<Polyline> same = contours;
+    EXPECT_FALSE(unite_crossing(0.01, same));
+    EXPECT_EQ(same, contours);
+  }
+}
+
+TEST(UniteCrossing, KeepsHolesBesideWhatCrosses) {
+  // Two squares that cross, with a hole in their common part and a square in
+  // the hole.
+  std::vector<Polyline> contours = {square(0, 0, 10), square(5, 5, 10),
+                                    square(6, 6, 3), square(7, 7, 1)};
+  EXPECT_TRUE(unite_crossing(0.01, contours));
+  EXPECT_NEAR(even_odd_area(contours), 200 - 25 - 9 + 1, 1e-6);
 }
 
 TEST(JoinCurves, FindsWhatIsOpen) {

@@ -35,7 +35,7 @@ struct Read {
 Read read(const std::string& bytes, FreecadOptions options = {}) {
   Tree tree;
   tree.arena = std::make_shared<Arena>();
-  options.boundary_text = [](std::string_view name) {
+  options.boundary_text = [](std::string_view, std::string_view name) {
     return fmt::format("import(part = \"{}\")", name);
   };
   FreecadModel model = read_freecad(bytes, options, *tree.arena);
@@ -90,6 +90,17 @@ TEST(FreecadFile, LeavesOutWhatIsHiddenAndSaysSo) {
   EXPECT_EQ(all.notes,
             std::vector<std::string>{"hidden, so left out: 'Jig' (Part::Box)"});
   EXPECT_TRUE(all.warnings.empty());
+}
+
+TEST(FreecadFile, DoesNotCallAHiddenOperandLeftOut) {
+  const std::string hidden = flag("Visibility", false);
+  FreecadDocument document;
+  document.box("A", "3", hidden)
+      .box("B", "2", hidden)
+      .box("C", "1", hidden)
+      .add("Part::Cut", "D", cut("A", "B"));
+  EXPECT_EQ(read(document.bytes()).notes,
+            std::vector<std::string>{"hidden, so left out: 'C' (Part::Box)"});
 }
 
 TEST(FreecadFile, NamesWhatIsVisibleAndPartOfAnotherObject) {
@@ -245,20 +256,132 @@ TEST(FreecadFile, LeavesOutWhatAGroupOfLinksHides) {
             std::vector<std::string>{"hidden, so left out: 'B' (Part::Box)"});
 }
 
-TEST(FreecadFile, LeavesOutLinksToAPartOfAnObject) {
+std::string linked_object(const std::string& attributes) {
+  return property("LinkedObject", "<XLink " + attributes + "/>");
+}
+
+TEST(FreecadFile, FollowsLinksToAPartOfAnObject) {
   for (const std::string link : {"<XLink file=\"\" name=\"P\" sub=\"A.\"/>",
+                                 "<XLink file=\"\" name=\"P\" sub=\"$Lid.\"/>",
                                  "<XLink file=\"\" name=\"P\" count=\"1\"><Sub "
                                  "value=\"A.\"/></XLink>"}) {
     FreecadDocument document;
-    document.box("A")
-        .add("App::Part", "P", links("Group", {"A"}))
+    document.box("A", "3", placement_at_x("7") + label("Lid"))
+        .add("App::Part", "P",
+             links("Group", {"A"}) + placement_at_x("100") +
+                 flag("Visibility", false))
         .add("App::Link", "L", property("LinkedObject", link));
-    const Read all = read(document.bytes());
-    EXPECT_EQ(all.csg, kBox + "\n");
-    EXPECT_EQ(all.warnings,
-              std::vector<std::string>{"'L' (App::Link) is left out: it links "
-                                       "to a part of 'P' (App::Part)"});
+    EXPECT_EQ(read(document.bytes()).csg,
+              "multmatrix([[1, 0, 0, 7], [0, 1, 0, 0], [0, 0, 1, 0], "
+              "[0, 0, 0, 1]]) {\n\t" +
+                  kBox + "}\n\n");
   }
+}
+
+TEST(FreecadFile, NamesWhatALinkDoesNotFind) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"file=\"\" name=\"P\" sub=\"B.\"", "it links to 'B' of 'P' (App::Part)"},
+      {"file=\"\" name=\"A\" sub=\"Face1\"",
+       "it links to Face1 of 'A' (Part::Box)"},
+      {"file=\"\" name=\"\"", "it links to nothing"},
+      {"file=\"\" name=\"X\"", "there is no object 'X'"},
+      {"file=\"b.FCStd\" name=\"A\"", "there is no file 'b.FCStd' to link to"}};
+  for (const auto& [link, why] : cases) {
+    FreecadDocument document;
+    document.box("A").box("B").add("App::Part", "P", links("Group", {"A"}));
+    document.add("App::Link", "L", linked_object(link));
+    EXPECT_EQ(read(document.bytes()).warnings,
+              std::vector<std::string>{"'L' (App::Link) is left out: " + why});
+  }
+}
+
+TEST(FreecadFile, FollowsLinksIntoOtherFilesAndBack) {
+  FreecadDocument first;
+  first.box("A").add(
+      "App::Link", "L",
+      linked_object("file=\"b.FCStd\" name=\"P\"") + placement_at_x("50"));
+  FreecadDocument second;
+  second.box("C", "2", flag("Visibility", false))
+      .add("App::Link", "Back", linked_object("file=\"a.FCStd\" name=\"A\""))
+      .add("App::Part", "P", links("Group", {"C", "Back"}));
+  std::vector<std::string> opened;
+  FreecadOptions options;
+  options.path = "a.FCStd";
+  options.open_linked = [&](std::string_view from, std::string_view file) {
+    opened.push_back(fmt::format("{} from {}", file, from));
+    const bool is_first = file == "a.FCStd";
+    return LinkedFreecadFile{is_first ? "a.FCStd" : "b.FCStd",
+                             (is_first ? first : second).bytes()};
+  };
+  EXPECT_EQ(read(first.bytes(), options).csg,
+            kBox +
+                "multmatrix([[1, 0, 0, 50], [0, 1, 0, 0], [0, 0, 1, 0], "
+                "[0, 0, 0, 1]]) {\n\t" +
+                kBox + "}\n\n");
+  EXPECT_EQ(opened, (std::vector<std::string>{"b.FCStd from a.FCStd",
+                                              "a.FCStd from b.FCStd"}));
+}
+
+TEST(FreecadFile, RejectsFilesThatAreMadeOfOneAnother) {
+  FreecadDocument file;
+  file.add("App::Link", "L", linked_object("file=\"b\" name=\"L\""));
+  FreecadOptions options;
+  options.path = "a";
+  options.open_linked = [&](std::string_view from, std::string_view) {
+    return LinkedFreecadFile{from == "a" ? "b" : "a", file.bytes()};
+  };
+  EXPECT_EQ(fault_of([&] { read(file.bytes(), options); }),
+            "FCStd, 'L' (App::Link) is made from itself");
+}
+
+TEST(FreecadFile, NamesTheLinkedFileThatIsBroken) {
+  FreecadDocument file;
+  file.add("App::Link", "L", linked_object("file=\"b.FCStd\" name=\"L\""));
+  FreecadOptions options;
+  options.open_linked = [&](std::string_view, std::string_view) {
+    return LinkedFreecadFile{"b", "junk"};
+  };
+  EXPECT_EQ(fault_of([&] { read(file.bytes(), options); }),
+            "FCStd, expected a ZIP archive, in 'b.FCStd', which a link names");
+}
+
+// Draft's arrays are links that store no shape, under names of their own.
+TEST(FreecadFile, MakesArraysThatStoreNoShape) {
+  FreecadDocument document;
+  document.box("A").add(
+      "Part::FeaturePython", "Array",
+      "<_Property name=\"Shape\"/>" + link("Base", "A") +
+          property("Count", "<Integer value=\"1\"/>") +
+          property("PlacementList", "<PlacementList file=\"places\"/>"),
+      extension("App::LinkExtensionPython"));
+  std::string places("\1\0\0\0", 4);
+  for (const double n : {20.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}) {
+    places.append(reinterpret_cast<const char*>(&n), sizeof n);
+  }
+  document.entry("places", places);
+  EXPECT_EQ(read(document.bytes()).csg,
+            "multmatrix([[1, 0, 0, 20], [0, 1, 0, 0], [0, 0, 1, 0], "
+            "[0, 0, 0, 1]]) {\n\t" +
+                kBox + "}\n\n");
+}
+
+TEST(FreecadFile, NamesShapesThatAreNotStored) {
+  FreecadDocument document;
+  document.box("A").add("New::Twist", "Twist", "<_Property name=\"Shape\"/>");
+  EXPECT_EQ(read(document.bytes()).warnings,
+            std::vector<std::string>{
+                "'Twist' (New::Twist) is left out: it stores no faces"});
+}
+
+TEST(FreecadFile, MakesSolidsThatABodyBinds) {
+  const std::string binder = "PartDesign::SubShapeBinder";
+  FreecadDocument document;
+  document.add(binder, "Solid", shape("solid"))
+      .add(binder, "Face", shape("face"))
+      .add("PartDesign::Body", "Body", links("Group", {"Solid", "Face"}))
+      .entry("solid", kBoundary + "So\n")
+      .entry("face", kBoundary);
+  EXPECT_EQ(read(document.bytes()).csg, "import(part = \"Solid\");\n\n");
 }
 
 TEST(FreecadFile, GivesOneObjectByNameOrByLabel) {
@@ -355,7 +478,7 @@ TEST(FreecadFile, KeepsTheBytesOfABoundaryOnceForAllThatNameIt) {
       .entry("a.brp", kBoundary);
   Arena arena;
   FreecadOptions options;
-  options.boundary_text = [](std::string_view name) {
+  options.boundary_text = [](std::string_view, std::string_view name) {
     return std::string(name);
   };
   const std::string bytes = document.bytes();
