@@ -93,7 +93,8 @@ Value builtin_len(const CallCode& code, Frame& frame) {
       return Value(static_cast<double>(value.character_count()));
     }
     if (value.is_object()) {
-      return Value(static_cast<double>(value.as_object().places.size()));
+      return Value(
+          static_cast<double>(value.as_object().keys.as_vector().size()));
     }
     return wrong_type(code, frame, 0, Type::kString, value);
   });
