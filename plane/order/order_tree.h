@@ -36,6 +36,20 @@ class OrderTree {
   // Exchanges two entries.
   void swap(std::uint32_t a, std::uint32_t b);
 
+  // A number by which entries of the tree can be sorted, until it changes.
+  // Cost: O(log n).
+  std::uint64_t place_of(std::uint32_t entry) const {
+    // A binary fraction: the way from the root, and a last 1. No tree is 63
+    // nodes high.
+    constexpr int kFirstBit = 63;
+    std::uint64_t place = std::uint64_t{1} << kFirstBit;
+    for (std::uint32_t node = nodes_of_[entry]; nodes_[node].parent != kNone;
+         node = nodes_[node].parent) {
+      place = place >> 1 | std::uint64_t{side_of(node)} << kFirstBit;
+    }
+    return place;
+  }
+
   // The last entry that is_below(entry) holds for, where it holds for all
   // before; `none` if for no entry. Asks O(log n) entries.
   template <typename IsBelow>

@@ -6,10 +6,12 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "base/diagnostic.h"
 #include "plane/edge_tree.h"
 #include "plane/loop_area.h"
+#include "plane/order/order_tree.h"
 
 namespace lamina::slicer {
 namespace {
@@ -503,7 +505,7 @@ struct OverlaySweep::State {
   void insert(std::uint32_t sample, double x);
   void swap_with_upper(std::uint32_t lower);
   void settle(double x);
-  bool renew_gap(std::size_t position, double x);
+  bool renew_gap(std::uint32_t lower, double x);
   void watch(std::uint32_t lower, double x);
   void close(std::uint32_t lower, double x);
   void link(const Gap& gap);
@@ -521,7 +523,11 @@ struct OverlaySweep::State {
                 : around_[sample.layer][sample.loop],
             is_solid};
   }
-  Label label_below(std::size_t position, std::uint8_t layer) const;
+  Label label_below(std::uint32_t sample, std::uint8_t layer) const;
+  void connect(std::uint32_t lower, std::uint32_t upper) {
+    uppers_[lower] = upper;
+    lowers_[upper] = lower;
+  }
   void mark(std::uint32_t sample) { dirty_.push_back(sample); }
   void push(const Event& event) {
     events_.push_back(event);
@@ -534,14 +540,20 @@ struct OverlaySweep::State {
   double reach_ = 0;
   LayerOverlay* overlay_ = nullptr;
   std::vector<Sample> samples_;
-  std::vector<Gap> gaps_;                // above each sample
-  std::vector<std::uint32_t> order_;     // samples on the ray, ascending in y
-  std::vector<std::uint32_t> position_;  // of each sample there, or none
+  std::vector<Gap> gaps_;  // above each sample
+  // The samples on the ray, ascending in y: a tree, and a ring of neighbours in
+  // which rim_ stands below the first and above the last.
+  plane::OrderTree order_;
+  std::vector<std::uint32_t> lowers_;
+  std::vector<std::uint32_t> uppers_;
+  std::uint32_t rim_ = 0;
   std::vector<Endpoint> endpoints_;
   std::size_t next_endpoint_ = 0;
   std::uint64_t crossings_ = 0;
   std::vector<Event> events_;  // heap
   std::vector<std::uint32_t> dirty_;
+  // Those in the order of the ray.
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places_;
   std::vector<std::uint32_t> begun_;
   std::vector<Ledge> ledges_;
   // The region below that each region above was last found to overlap, the
@@ -604,8 +616,11 @@ void OverlaySweep::State::begin() {
   next_endpoint_ = 0;
   crossings_ = 0;
   gaps_.assign(samples_.size(), {});
-  position_.assign(samples_.size(), kNone);
-  order_.clear();
+  rim_ = static_cast<std::uint32_t>(samples_.size());
+  order_.begin(samples_.size() + 1);
+  lowers_.resize(samples_.size() + 1);
+  uppers_.resize(samples_.size() + 1);
+  connect(rim_, rim_);
   events_.clear();
   dirty_.clear();
   ledges_.clear();
@@ -621,7 +636,7 @@ void OverlaySweep::State::take_events(double end) {
     std::pop_heap(events_.begin(), events_.end(), is_later);
     const Event event = events_.back();
     events_.pop_back();
-    if (position_[event.sample] == kNone) continue;
+    if (!order_.holds(event.sample)) continue;
     if (gaps_[event.sample].stamp != event.stamp) continue;
     switch (event.kind) {
       case EventKind::kCrossing:
@@ -653,7 +668,7 @@ void OverlaySweep::State::take_endpoints(double end) {
       if (samples_[endpoint.sample].last->x > end) {
         begun_.push_back(endpoint.sample);
       }
-    } else if (position_[endpoint.sample] != kNone) {
+    } else if (order_.holds(endpoint.sample)) {
       remove(endpoint.sample, endpoint.x);
     }
   }
@@ -664,14 +679,12 @@ void OverlaySweep::State::take_endpoints(double end) {
 
 void OverlaySweep::State::remove(std::uint32_t sample, double x) {
   close(sample, x);
-  const std::uint32_t at = position_[sample];
-  order_.erase(order_.begin() + at);
-  position_[sample] = kNone;
-  for (std::size_t i = at; i < order_.size(); ++i) {
-    position_[order_[i]] = static_cast<std::uint32_t>(i);
-  }
-  if (at > 0) mark(order_[at - 1]);
-  if (at < order_.size()) mark(order_[at]);
+  const std::uint32_t lower = lowers_[sample];
+  const std::uint32_t upper = uppers_[sample];
+  order_.remove(sample, upper);
+  connect(lower, upper);
+  mark(lower);
+  mark(upper);
 }
 
 // Whether `other`, which begins at x, belongs above the sample; where they meet
@@ -688,43 +701,43 @@ bool OverlaySweep::State::is_below(const Sample& sample, const Sample& other,
 
 void OverlaySweep::State::insert(std::uint32_t sample, double x) {
   const Sample& begun = samples_[sample];
-  const auto place = std::partition_point(
-      order_.begin(), order_.end(),
-      [&](std::uint32_t other) { return is_below(samples_[other], begun, x); });
-  const auto at = static_cast<std::size_t>(place - order_.begin());
-  order_.insert(place, sample);
-  for (std::size_t i = at; i < order_.size(); ++i) {
-    position_[order_[i]] = static_cast<std::uint32_t>(i);
-  }
+  const std::uint32_t lower = order_.find_last(
+      [&](std::uint32_t other) { return is_below(samples_[other], begun, x); },
+      rim_);
+  const std::uint32_t upper = uppers_[lower];
+  order_.insert(lower, upper, sample);
+  connect(lower, sample);
+  connect(sample, upper);
   std::uint32_t& around = around_[begun.layer][begun.loop];
   if (around == kUnknown) {
     // A loop begins on its left, where its outer side is below.
-    const Label label = label_below(at, begun.layer);
+    const Label label = label_below(sample, begun.layer);
     const bool fits =
         label.is_solid != layers_[begun.layer].is_outer(begun.loop);
     around = fits ? label.region : kOutside;
   }
   mark(sample);
-  if (at > 0) mark(order_[at - 1]);
+  mark(lower);
 }
 
-// The region of a layer below the sample at that position.
-Label OverlaySweep::State::label_below(std::size_t position,
+// The region of a layer below the sample.
+Label OverlaySweep::State::label_below(std::uint32_t sample,
                                        std::uint8_t layer) const {
-  while (position > 0) {
-    const Sample& sample = samples_[order_[--position]];
-    if (sample.layer == layer) return above(sample);
-  }
-  return {};
+  do {
+    sample = lowers_[sample];
+    if (sample == rim_) return {};
+  } while (samples_[sample].layer != layer);
+  return above(samples_[sample]);
 }
 
 void OverlaySweep::State::swap_with_upper(std::uint32_t lower) {
-  const std::uint32_t at = position_[lower];
-  const std::uint32_t upper = order_[at + 1];
-  std::swap(order_[at], order_[at + 1]);
-  position_[lower] = at + 1;
-  position_[upper] = at;
-  if (at > 0) mark(order_[at - 1]);
+  const std::uint32_t upper = uppers_[lower];
+  const std::uint32_t below = lowers_[lower];
+  order_.swap(lower, upper);
+  connect(lower, uppers_[upper]);
+  connect(upper, lower);
+  connect(below, upper);
+  mark(below);
   mark(upper);
   mark(lower);
 }
@@ -733,30 +746,28 @@ void OverlaySweep::State::swap_with_upper(std::uint32_t lower) {
 
 // Renews the gaps that have changed, and those above them whose labels do.
 void OverlaySweep::State::settle(double x) {
-  std::erase_if(dirty_, [this](std::uint32_t sample) {
-    return position_[sample] == kNone;
-  });
-  std::ranges::sort(dirty_, {},
-                    [this](std::uint32_t sample) { return position_[sample]; });
+  places_.clear();
   for (const std::uint32_t sample : dirty_) {
-    std::size_t position = position_[sample];
-    while (position < order_.size() && renew_gap(position, x)) ++position;
+    if (!order_.holds(sample)) continue;
+    places_.emplace_back(order_.place_of(sample), sample);
+  }
+  std::ranges::sort(places_);
+  for (auto [place, sample] : places_) {
+    while (sample != rim_ && renew_gap(sample, x)) sample = uppers_[sample];
   }
   dirty_.clear();
 }
 
 // Whether the labels are others than before.
-bool OverlaySweep::State::renew_gap(std::size_t position, double x) {
-  const std::uint32_t lower = order_[position];
-  const std::uint32_t upper =
-      position + 1 < order_.size() ? order_[position + 1] : kNone;
+bool OverlaySweep::State::renew_gap(std::uint32_t lower, double x) {
+  const std::uint32_t upper = uppers_[lower] == rim_ ? kNone : uppers_[lower];
   const Sample& sample = samples_[lower];
   Gap& gap = gaps_[lower];
   std::array<Label, 2> labels;
   labels[sample.layer] = above(sample);
   const std::uint8_t other = sample.layer == 0 ? 1 : 0;
-  if (position > 0) {
-    labels[other] = gaps_[order_[position - 1]].labels[other];
+  if (lowers_[lower] != rim_) {
+    labels[other] = gaps_[lowers_[lower]].labels[other];
   }
   const bool has_new_labels = labels != gap.labels;
   if (!has_new_labels && upper == gap.upper) return false;

@@ -55,6 +55,9 @@ class TreeAndRow {
       EXPECT_EQ(tree_.find_last(is_before, none_), i > 0 ? row_[i - 1] : none_);
       most = std::max(most, asked);
     }
+    for (std::size_t i = 1; i < row_.size(); ++i) {
+      EXPECT_LT(tree_.place_of(row_[i - 1]), tree_.place_of(row_[i]));
+    }
     return most;
   }
 
