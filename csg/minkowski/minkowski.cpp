@@ -13,6 +13,7 @@
 #include "csg/boundary/convex_hull.h"
 #include "csg/boundary/leaf_faces.h"
 #include "csg/limits.h"
+#include "csg/mesh/vertex_table.h"
 #include "csg/minkowski/convex.h"
 #include "csg/minkowski/convex_leaf.h"
 #include "csg/minkowski/joined_faces.h"
@@ -246,11 +247,32 @@ void add(const Parts& a, const Parts& b, Operand& sum) {
   }
 }
 
-// The parts of a body meet b in as many sums; its surface meets b once.
+// The sums of parts that have a corner in common cross each other about it,
+// each with each.
+double count_crossings(const std::vector<Convex>& parts) {
+  VertexTable names;
+  std::vector<std::size_t> counts;
+  for (const Convex& part : parts) {
+    for (const Vec3& vertex : part.vertices) {
+      const std::uint32_t name = names.name(vertex);
+      if (name == counts.size()) counts.push_back(0);
+      ++counts[name];
+    }
+  }
+  double sum = 0;
+  for (const std::size_t count : counts) {
+    sum += static_cast<double>(count) * static_cast<double>(count);
+  }
+  return sum;
+}
+
+// The parts of a body meet b in as many sums, and these cross; its surface
+// meets b once.
 bool is_cheaper_in_parts(const Body& a, const Convex& b,
                          const JoinedFaces& b_surface) {
-  return !a.parts->empty() && count_vertices(parts_of(a), parts_of(b)) <=
-                                  count_summits(*a.surface, b_surface);
+  return !a.parts->empty() &&
+         count_vertices(parts_of(a), parts_of(b)) + count_crossings(*a.parts) <=
+             count_summits(*a.surface, b_surface);
 }
 
 void add(const Body& a, const Convex& b, Operand& sum) {

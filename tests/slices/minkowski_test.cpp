@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <numbers>
 #include <string>
@@ -57,6 +58,46 @@ void expect_equal(const std::string& a, const std::string& b,
 }
 
 using support::polygon_area;
+
+// Triangles of the scene's meshes that a layer crosses.
+std::size_t count_crossed(const csg::Scene& scene, double z) {
+  std::size_t count = 0;
+  for (const csg::Leaf& leaf : scene.leaves) {
+    for (const csg::Mesh& mesh : leaf.meshes) {
+      for (const auto& triangle : mesh.triangles) {
+        double low = mesh.vertices[triangle[0]].z;
+        double high = low;
+        for (const std::uint32_t corner : triangle) {
+          low = std::min(low, mesh.vertices[corner].z);
+          high = std::max(high, mesh.vertices[corner].z);
+        }
+        if (low < z && z < high) ++count;
+      }
+    }
+  }
+  return count;
+}
+
+// A rounded plate with two holes, cut into convex parts, has hundreds of them
+// around single corners.
+TEST(Minkowski, OfAPlateOfManyPartsIsMadeOfItsSurface) {
+  const std::string plate =
+      "offset(r = -1) offset(r = 4) offset(r = -4) difference() {"
+      " square([120, 60], center = true);"
+      " for (x = [-30, 30]) translate([x, 0]) circle(d = 36); }";
+  const std::string settings = "$fa = 4; $fs = 0.4; ";
+  const std::string solid =
+      settings + "minkowski() { linear_extrude(30) " + plate +
+      " union() { cylinder(d1 = 2, d2 = 0, h = 1);"
+      " mirror([0, 0, 1]) cylinder(d1 = 2, d2 = 0, h = 1); } }";
+  const std::string flat = settings + "linear_extrude(30) minkowski() { " +
+                           plate + " circle(d = 2); }";
+  expect_equal(solid, flat, {3.1, 15.2, 27.3});
+  // Each vertical face, moved and joined by few more, is some triangles.
+  const Design design = Design::from_text(solid);
+  const auto contours = sections(flat, {15.2}).at(0);
+  EXPECT_LT(count_crossed(design.scene(), 15.2), 20 * contours.points.size());
+}
 
 // Of a sphere's section at height z: its vertices are rings at the middles of
 // equal angles, joined by straight sides.
