@@ -1,8 +1,10 @@
 #include "csg/cad/detail/solids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepGProp.hxx>
@@ -81,46 +83,73 @@ Shapes shells_of(const TopoDS_Shape& sewn) {
 struct Filled {
   TopoDS_Shape shell;
   TopoDS_Solid solid;
-  bool looks_inward = false;  // as the file has its faces
+  double volume = 0;  // less than 0 where the file's faces look inward
+  std::vector<const Filled*> voids = {};
+  bool is_void = false;
 };
 
 Filled fill(const TopoDS_Shape& shell) {
   GProp_GProps measures;
   BRepGProp::VolumeProperties(shell, measures);
   ShapeFix_Solid fix;
-  return {shell, fix.SolidFromShell(TopoDS::Shell(shell)), measures.Mass() < 0};
+  return {shell, fix.SolidFromShell(TopoDS::Shell(shell)), measures.Mass()};
 }
 
+bool look_alike(const Filled& a, const Filled& b) {
+  return (a.volume < 0) == (b.volume < 0);
+}
+
+// Whether nothing of the inner one is outside, nor is it a copy. A vertex
+// outside says no at once; else what crosses has all vertices inside, too, so
+// OpenCASCADE cuts.
 bool contains(const Filled& outer, const Filled& inner) {
+  constexpr double kLeastShare = 1e-6;  // of a volume: exactness of Mass()
+  if (std::abs(inner.volume) > (1 - kLeastShare) * std::abs(outer.volume)) {
+    return false;
+  }
   const Shapes vertices = parts_of(inner.shell, TopAbs_VERTEX);
   if (vertices.empty()) return false;
   const BRepClass3d_SolidClassifier classifier(
       outer.solid, BRep_Tool::Pnt(TopoDS::Vertex(vertices.front())),
       Precision::Confusion());
-  return classifier.State() == TopAbs_IN;
+  if (classifier.State() == TopAbs_OUT) return false;
+  BRepAlgoAPI_Cut outside(inner.solid, outer.solid);
+  return !outside.HasErrors() &&
+         parts_of(outside.Shape(), TopAbs_SOLID).empty();
 }
 
-// A shell that looks inward and lies in another one bounds a void of it; all
-// others are solids of their own.
-void add_solids(const std::vector<Filled>& all, const std::string& name,
+// A shell that lies in another one and looks the other way bounds a void of it,
+// unless another void is around it. All others are solids of their own, also
+// those that cross.
+void add_solids(std::vector<Filled>& all, const std::string& name,
                 std::vector<Solid>& solids) {
-  const BRep_Builder builder;
-  const auto is_void = [&](const Filled& one) {
-    return one.looks_inward &&
-           std::any_of(all.begin(), all.end(), [&](const Filled& other) {
-             return &other != &one && !other.looks_inward &&
-                    contains(other, one);
-           });
-  };
-  std::vector<const Filled*> voids;
-  for (const Filled& one : all) {
-    if (is_void(one)) voids.push_back(&one);
+  std::vector<Filled*> by_size;
+  for (Filled& one : all) by_size.push_back(&one);
+  std::stable_sort(by_size.begin(), by_size.end(), [](auto* a, auto* b) {
+    return std::abs(a->volume) > std::abs(b->volume);
+  });
+  std::vector<Filled*> outer;
+  for (Filled* one : by_size) {
+    for (Filled* other : outer) {
+      if (look_alike(*other, *one) || !contains(*other, *one)) continue;
+      const auto is_around = [&](const Filled* hollow) {
+        return contains(*hollow, *one);
+      };
+      if (std::ranges::any_of(other->voids, is_around)) continue;
+      other->voids.push_back(one);
+      one->is_void = true;
+    }
+    if (!one->is_void) outer.push_back(one);
   }
+  const BRep_Builder builder;
   for (const Filled& one : all) {
-    if (std::count(voids.begin(), voids.end(), &one) > 0) continue;
+    if (one.is_void) continue;
     TopoDS_Solid solid = one.solid;
-    for (const Filled* hollow : voids) {
-      if (contains(one, *hollow)) builder.Add(solid, hollow->shell);
+    for (const Filled* hollow : one.voids) {
+      const TopoDS_Shape turned = hollow->solid.Reversed();
+      for (const TopoDS_Shape& shell : parts_of(turned, TopAbs_SHELL)) {
+        builder.Add(solid, shell);
+      }
     }
     solids.push_back({solid, name});
   }

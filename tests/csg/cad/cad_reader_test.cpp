@@ -3,6 +3,8 @@
 
 #include "csg/cad/cad_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <clocale>
 #include <cmath>
 #include <cstdlib>
@@ -11,11 +13,13 @@
 #include <new>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -252,6 +256,212 @@ TEST_F(CadReader, CountsWhatOpenCascadeLeavesOut) {
     iges = replaced(iges, "\n     144 ", "\n     145 ");
   EXPECT_EQ(warning(iges, Format::kIges),
             "OpenCASCADE can't use 1 of 26 entities of shapes or units");
+}
+
+// --- Shells ------------------------------------------------------------------
+
+// A box with whole numbers for corners, as a closed shell.
+struct Box {
+  std::array<int, 3> low;
+  std::array<int, 3> high;
+  bool looks_inward = false;
+
+  bool has(Vec3 p) const {
+    return low[0] < p.x && p.x < high[0] && low[1] < p.y && p.y < high[1] &&
+           low[2] < p.z && p.z < high[2];
+  }
+};
+
+// The lines of a shell, from #first on.
+std::string step_of(const Box& box, int first) {
+  std::string lines;
+  std::string faces;
+  int next = first + 1;
+  const auto add = [&](const std::string& entity) {
+    lines += fmt::format("#{} = {};\n", next, entity);
+    return next++;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t u = (axis + 1) % 3;
+    const std::size_t v = (axis + 2) % 3;
+    for (const bool is_high : {false, true}) {
+      std::array<double, 3> normal{};
+      normal[axis] = is_high != box.looks_inward ? 1 : -1;
+      std::array<double, 3> along{};
+      along[u] = 1;
+      std::vector<int> corners;
+      for (const auto& [is_u, is_v] :
+           {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+        std::array<int, 3> p{};
+        p[axis] = (is_high ? box.high : box.low)[axis];
+        p[u] = (is_u == 1 ? box.high : box.low)[u];
+        p[v] = (is_v == 1 ? box.high : box.low)[v];
+        corners.push_back(add(fmt::format("CARTESIAN_POINT('',({}.,{}.,{}.))",
+                                          p[0], p[1], p[2])));
+      }
+      if (normal[axis] < 0) std::reverse(corners.begin(), corners.end());
+      const int z = add(fmt::format("DIRECTION('',({:.1f},{:.1f},{:.1f}))",
+                                    normal[0], normal[1], normal[2]));
+      const int x = add(fmt::format("DIRECTION('',({:.1f},{:.1f},{:.1f}))",
+                                    along[0], along[1], along[2]));
+      const int place = add(
+          fmt::format("AXIS2_PLACEMENT_3D('',#{},#{},#{})", corners[0], z, x));
+      const int plane = add(fmt::format("PLANE('',#{})", place));
+      const int loop =
+          add(fmt::format("POLY_LOOP('',(#{}))", fmt::join(corners, ",#")));
+      const int bound = add(fmt::format("FACE_OUTER_BOUND('',#{},.T.)", loop));
+      faces += fmt::format(
+          "{}#{}", faces.empty() ? "" : ",",
+          add(fmt::format("FACE_SURFACE('',(#{}),#{},.T.)", bound, plane)));
+    }
+  }
+  return fmt::format("#{} = CLOSED_SHELL('',({}));\n", first, faces) + lines;
+}
+
+std::string step_of_shells(const std::vector<Box>& boxes) {
+  std::string shells;
+  std::string lines;
+  int first = 1000;
+  for (const Box& box : boxes) {
+    shells += fmt::format("{}#{}", shells.empty() ? "" : ",", first);
+    lines += step_of(box, first);
+    first += 1000;
+  }
+  std::string step = replaced(seed("step/cylinder"), "(#11,#15)", "(#11,#900)");
+  const std::size_t cylinder = step.find("#15 =");
+  return step.replace(
+      cylinder, step.find("#113 =") - cylinder,
+      fmt::format("#900 = SHELL_BASED_SURFACE_MODEL('',({}));\n{}", shells,
+                  lines));
+}
+
+// How often a mesh goes round a point.
+int winding(const csg::Mesh& mesh, Vec3 p) {
+  double angle = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - p;
+    const Vec3 b = mesh.vertices[t[1]] - p;
+    const Vec3 c = mesh.vertices[t[2]] - p;
+    const double la = glm::length(a);
+    const double lb = glm::length(b);
+    const double lc = glm::length(c);
+    angle += 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                            la * lb * lc + glm::dot(a, b) * lc +
+                                glm::dot(b, c) * la + glm::dot(c, a) * lb);
+  }
+  return static_cast<int>(std::lround(angle / (4 * std::numbers::pi)));
+}
+
+// What bodies fill of a cube of 12 mm: so many mm³.
+int filled_by(const std::vector<Body>& bodies) {
+  constexpr int kSize = 12;
+  int count = 0;
+  for (int i = 0; i < kSize * kSize * kSize; ++i) {
+    const Vec3 p(i % kSize + 0.5, i / kSize % kSize + 0.5,
+                 i / kSize / kSize + 0.5);
+    const bool is_filled = std::any_of(
+        bodies.begin(), bodies.end(),
+        [&](const Body& body) { return winding(body.mesh, p) != 0; });
+    if (is_filled) ++count;
+  }
+  return count;
+}
+
+int volume_of(const Box& box) {
+  return (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]) *
+         (box.high[2] - box.low[2]);
+}
+
+int volume_of_both(const Box& a, const Box& b) {
+  int volume = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    volume *= std::max(
+        0, std::min(a.high[k], b.high[k]) - std::max(a.low[k], b.low[k]));
+  }
+  return volume;
+}
+
+Box common(const Box& a, const Box& b) {
+  Box both = a;
+  for (std::size_t k = 0; k < 3; ++k) {
+    both.low[k] = std::max(a.low[k], b.low[k]);
+    both.high[k] = std::max(both.low[k], std::min(a.high[k], b.high[k]));
+  }
+  return both;
+}
+
+class Shells : public CadReader {
+ protected:
+  int number(int least, int most) {
+    return std::uniform_int_distribution<int>(least, most)(random_);
+  }
+  bool either() { return number(0, 1) == 1; }
+
+  // In any order: what is a void must not depend on it.
+  void expect_volume(std::vector<Box> boxes, int volume) {
+    std::shuffle(boxes.begin(), boxes.end(), random_);
+    const std::string bytes = step_of_shells(boxes);
+    const Part part = read(bytes, Format::kStep);
+    EXPECT_EQ(part.warnings, std::vector<std::string>());
+    EXPECT_EQ(filled_by(part.bodies), volume) << bytes;
+  }
+
+  std::mt19937 random_{1};
+};
+
+// Some corners are in another box, or none. No two edges lie in each other:
+// they would be sewn together.
+TEST_F(Shells, ThatCrossAreUnited) {
+  for (int i = 0; i < 40; ++i) {
+    const int end = either() ? 7 : 12;
+    const Box a{{0, 0, 0}, {6, 6, 6}, either()};
+    const Box b{
+        {number(2, 4), number(1, 5), number(2, 5)}, {end, 8, 8}, either()};
+    const Box c{{1, number(3, 4), 1}, {5, 11, 10}, either()};
+    const int two = volume_of(a) + volume_of(b) - volume_of_both(a, b);
+    expect_volume({a, b}, two);
+    expect_volume({a, b, c}, two + volume_of(c) - volume_of_both(a, c) -
+                                 volume_of_both(b, c) +
+                                 volume_of_both(common(a, b), c));
+  }
+}
+
+TEST_F(Shells, ThatPierceAreUnited) {
+  for (int i = 0; i < 20; ++i) {
+    const int from = number(3, 5);
+    const Box plate{{1, 1, 4}, {11, 11, 7}, either()};
+    const Box bar{{from, from, 0}, {8, 9, number(9, 12)}, either()};
+    expect_volume({plate, bar}, volume_of(plate) + volume_of(bar) -
+                                    volume_of_both(plate, bar));
+  }
+}
+
+// A void looks the other way than what is around it, whichever that is.
+TEST_F(Shells, InEachOtherAreVoidsByTurns) {
+  for (int i = 0; i < 20; ++i) {
+    const bool inward = either();
+    const Box a{{0, 0, 0}, {12, 12, 12}, inward};
+    const Box b{{1, 1, number(1, 2)}, {11, 10, 11}, !inward};
+    const Box c{{3, number(2, 4), 3}, {number(8, 9), 9, 9}, inward};
+    const Box d{{5, 6, number(4, 6)}, {7, 7, 8}, !inward};
+    expect_volume({a, b}, volume_of(a) - volume_of(b));
+    expect_volume({a, b, c}, volume_of(a) - volume_of(b) + volume_of(c));
+    expect_volume({a, b, c, d},
+                  volume_of(a) - volume_of(b) + volume_of(c) - volume_of(d));
+    // Two in one that look its way, beside a void.
+    expect_volume({a, c}, volume_of(a));
+  }
+}
+
+TEST_F(Shells, ThatTouchFromInsideAreVoids) {
+  for (int i = 0; i < 20; ++i) {
+    const bool inward = either();
+    const Box a{{0, 0, 0}, {10, 10, 10}, inward};
+    const Box inside{{2, number(1, 4), 0}, {8, 7, number(3, 9)}, !inward};
+    const Box beside{{2, number(1, 4), 10}, {8, 7, number(11, 12)}, either()};
+    expect_volume({a, inside}, volume_of(a) - volume_of(inside));
+    expect_volume({a, beside}, volume_of(a) + volume_of(beside));
+  }
 }
 
 // Lines of a STEP more.
