@@ -36,6 +36,10 @@ Children& children() {
   return all;
 }
 
+// What the children took that have ended [s].
+std::atomic<double> ended_seconds = 0;
+thread_local double ended_seconds_of_thread = 0;
+
 // The status of a child whose memory ended.
 constexpr int kOutOfMemoryStatus = 112;
 
@@ -104,16 +108,19 @@ unsigned processor_seconds(unsigned most) {
   return static_cast<unsigned>(std::min<rlim_t>(now.rlim_cur, most));
 }
 
-// Whether so much processor time was taken, as exactly as the system keeps to
-// its limit: of one second it has been seen to leave 0.12.
-bool has_taken(const rusage& usage, unsigned seconds) {
+double seconds_of(const rusage& usage) {
   constexpr double kMicrosecond = 1e-6;
-  constexpr double kExactness = 0.2;
   timeval time{};
   timeradd(&usage.ru_utime, &usage.ru_stime, &time);
   return static_cast<double>(time.tv_sec) +
-             kMicrosecond * static_cast<double>(time.tv_usec) >=
-         seconds - kExactness;
+         kMicrosecond * static_cast<double>(time.tv_usec);
+}
+
+// Whether so much processor time was taken, as exactly as the system keeps to
+// its limit: of one second it has been seen to leave 0.12.
+bool has_taken(const rusage& usage, unsigned most_seconds) {
+  constexpr double kExactness = 0.2;
+  return seconds_of(usage) >= most_seconds - kExactness;
 }
 
 [[noreturn]] void run_child(
@@ -232,6 +239,8 @@ ChildFault ChildProcess::wait() {
   // Where the caller's program takes the statuses of all children, it is not
   // known.
   if (ended < 0) return ChildFault::kNone;
+  ended_seconds += seconds_of(usage);
+  ended_seconds_of_thread += seconds_of(usage);
   if (WIFSIGNALED(status)) {
     switch (WTERMSIG(status)) {
       case SIGXCPU:
@@ -261,5 +270,9 @@ std::uint64_t memory_of_children() {
   }
   return sum;
 }
+
+double seconds_of_children() { return ended_seconds; }
+
+double thread_seconds_of_children() { return ended_seconds_of_thread; }
 
 }  // namespace lamina

@@ -70,4 +70,9 @@ class ChildProcess {
 // with it since they were made.
 std::uint64_t memory_of_children();
 
+// Processor time that children took which have ended [s]: those of this
+// process, and those that this thread has waited for.
+double seconds_of_children();
+double thread_seconds_of_children();
+
 }  // namespace lamina

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/child_process.h"
 #include "base/text.h"
 #include "base/thread_clock.h"
 #include "compiler/layer_output.h"
@@ -20,12 +21,16 @@ namespace {
 using slicer::OutputFormat;
 
 // Runs a pass and adds the processor seconds that it takes to `seconds`. It
-// works on this thread alone, beside which other compilations may go on.
+// works on this thread and its child processes alone, beside which other
+// compilations may go on.
 template <typename Pass>
 auto timed(double& seconds, const Pass& pass) {
-  const double begin = thread_seconds();
+  const auto now = [] {
+    return thread_seconds() + thread_seconds_of_children();
+  };
+  const double begin = now();
   auto product = pass();
-  seconds += thread_seconds() - begin;
+  seconds += now() - begin;
   return product;
 }
 

@@ -11,6 +11,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "base/child_process.h"
 #include "base/file/output_file.h"
 #include "base/paths.h"
 #include "base/text.h"
@@ -270,7 +271,7 @@ double process_seconds() {
   timespec now{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
+         1e-9 * static_cast<double>(now.tv_nsec) + seconds_of_children();
 }
 
 std::uint64_t peak_memory_bytes() {

@@ -12,7 +12,7 @@
 
 namespace lamina::cli {
 
-// Processor seconds of all threads since the program began.
+// Processor seconds of all threads and child processes since the program began.
 double process_seconds();
 
 // The most memory that this program has held so far.

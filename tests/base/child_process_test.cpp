@@ -49,6 +49,20 @@ TEST(ChildProcess, TellsHowItEnded) {
   EXPECT_EQ(endless.wait(), ChildFault::kOutOfTime);
 }
 
+TEST(ChildProcess, ItsTimeCountsWhenItHasEnded) {
+  const double before = seconds_of_children();
+  const double before_of_thread = thread_seconds_of_children();
+  ChildProcess endless(
+      [](const ChildOutput&) {
+        while (::getppid() != 0) {
+        }
+      },
+      1);
+  EXPECT_EQ(endless.wait(), ChildFault::kOutOfTime);
+  EXPECT_GT(seconds_of_children() - before, 0.5);
+  EXPECT_GT(thread_seconds_of_children() - before_of_thread, 0.5);
+}
+
 // A shell's `ulimit -t` sets both limits; at the hard one the system kills.
 TEST(ChildProcess, IsOutOfTimeAtAHardLimit) {
   ChildProcess endless(
