@@ -8,7 +8,6 @@
 #include <ElSLib.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
-#include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
@@ -78,20 +77,21 @@ std::optional<gp_XY> nearest_by_formula(const gp_Pnt& p,
   return gp_XY(u, v);
 }
 
-// A step of Gauss and Newton towards the parameters of the nearest point.
+// A step of Levenberg and Marquardt towards the parameters of the nearest
+// point. The more it is damped, the shorter it is. Where a direction vanishes,
+// as at a pole, only the other one counts.
 gp_XY step_towards(const gp_Pnt& p, const BRepAdaptor_Surface& surface,
-                   gp_XY uv) {
+                   gp_XY uv, double damping) {
   gp_Pnt at;
   gp_Vec along_u;
   gp_Vec along_v;
   surface.D1(uv.X(), uv.Y(), at, along_u, along_v);
   const gp_Vec off(at, p);
-  // Where a direction vanishes, as at a pole, only the other one counts.
-  constexpr double kDamping = 1e-9;
-  const double damping =
-      kDamping * (along_u.SquareMagnitude() + along_v.SquareMagnitude());
-  const double uu = along_u.SquareMagnitude() + damping;
-  const double vv = along_v.SquareMagnitude() + damping;
+  constexpr double kLeast = 1e-9;
+  const double least =
+      kLeast * (along_u.SquareMagnitude() + along_v.SquareMagnitude());
+  const double uu = along_u.SquareMagnitude() * (1 + damping) + least;
+  const double vv = along_v.SquareMagnitude() * (1 + damping) + least;
   const double across = along_u.Dot(along_v);
   const double determinant = uu * vv - across * across;
   if (!(determinant > 0)) return {};
@@ -119,31 +119,45 @@ double deviation_of_edges(const TopoDS_Shape& shape) {
   return greatest;
 }
 
-Surface::Surface(const TopoDS_Face& face)
-    : face_(face), adaptor_(face, Standard_False) {}
+Surface::Surface(const TopoDS_Face& face) : adaptor_(face, Standard_False) {}
 
-double Surface::distance(const gp_Pnt& p, gp_XY uv, double enough) {
-  constexpr int kMostSteps = 4;
+double Surface::distance(const gp_Pnt& p, gp_XY uv, double enough) const {
   double least = at(uv).Distance(p);
   if (least <= enough) return least;
   if (const auto nearest = nearest_by_formula(p, adaptor_)) {
     return at(*nearest).Distance(p);
   }
-  for (int i = 0; i < kMostSteps; ++i) {
-    uv += step_towards(p, adaptor_, uv);
-    least = std::min(least, at(uv).Distance(p));
-    if (least <= enough) return least;
+  // A step that leads no nearer is tried again, shorter.
+  constexpr int kMostSteps = 10;
+  constexpr double kLeastGain = 0.01;
+  double damping = 0;
+  for (int i = 0; i < kMostSteps && least > enough; ++i) {
+    const gp_XY next = inside(uv + step_towards(p, adaptor_, uv, damping));
+    const double distance = at(next).Distance(p);
+    if (distance >= least) {
+      damping = 10 * damping + 1;
+      continue;
+    }
+    const bool is_nearest = distance > (1 - kLeastGain) * least;
+    uv = next;
+    least = distance;
+    damping /= 10;
+    if (is_nearest) break;
   }
-  return std::min(least, searched_distance(p));
+  return least;
 }
 
-// By OpenCASCADE's search, which is slow and finds it at poles, too.
-double Surface::searched_distance(const gp_Pnt& p) {
-  if (search_.IsNull()) {
-    search_ = new ShapeAnalysis_Surface(BRep_Tool::Surface(face_));
+// Beyond the ends of a spline is no surface.
+gp_XY Surface::inside(gp_XY uv) const {
+  if (!adaptor_.IsUPeriodic()) {
+    uv.SetX(std::clamp(uv.X(), adaptor_.FirstUParameter(),
+                       adaptor_.LastUParameter()));
   }
-  search_->ValueOfUV(p, Precision::Confusion());
-  return search_->Gap();
+  if (!adaptor_.IsVPeriodic()) {
+    uv.SetY(std::clamp(uv.Y(), adaptor_.FirstVParameter(),
+                       adaptor_.LastVParameter()));
+  }
+  return uv;
 }
 
 }  // namespace lamina::cad

@@ -1,7 +1,8 @@
 #include "csg/cad/detail/face_mesh.h"
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
@@ -18,7 +19,8 @@ class Refiner {
       : surface_(face),
         chordal_error_(chordal_error),
         mesh_(mesh),
-        first_new_(mesh.points.size()) {}
+        first_new_(mesh.points.size()),
+        progress_(mesh.triangles.size()) {}
 
   double refine() {
     if (surface_.is_plane() || mesh_.uv.empty()) return 0;
@@ -27,9 +29,11 @@ class Refiner {
     while (!doubtful_.empty()) {
       const Index triangle = doubtful_.back();
       doubtful_.pop_back();
-      const double deviation = deviation_of(triangle);
-      if (deviation <= chordal_error_) continue;
-      if (!split(triangle)) greatest = std::max(greatest, deviation);
+      const Deviation deviation = deviation_of(triangle);
+      if (deviation.greatest <= chordal_error_) continue;
+      if (!gains(triangle, deviation.greatest) || !split(deviation.side)) {
+        greatest = std::max(greatest, deviation.greatest);
+      }
     }
     return greatest;
   }
@@ -45,40 +49,68 @@ class Refiner {
   // The triangles at a side, in any order.
   using Pair = std::array<Index, 2>;
 
-  double deviation_of(Index triangle) {
-    // The middle, those of the sides, and between each of these and the middle.
-    constexpr double kShares[7][3] = {{1. / 3, 1. / 3, 1. / 3},
-                                      {0.5, 0.5, 0},
-                                      {0, 0.5, 0.5},
-                                      {0.5, 0, 0.5},
-                                      {0.25, 0.25, 0.5},
-                                      {0.25, 0.5, 0.25},
-                                      {0.5, 0.25, 0.25}};
-    const auto& corners = mesh_.triangles[triangle];
+  struct Deviation {
     double greatest = 0;
-    for (const auto& share : kShares) {
+    Side side;  // the one to split
+  };
+
+  // How far what a triangle is a part of was off, and how many splits ago.
+  struct Progress {
+    double before = std::numeric_limits<double>::infinity();
+    int splits = 0;
+  };
+
+  // The side to split is that whose middle is farthest off, so that a narrow
+  // triangle is not cut across first; or else the longest.
+  Deviation deviation_of(Index triangle) const {
+    // The middles of the sides, that of all, and between each and that.
+    constexpr double kShares[7][3] = {
+        {0.5, 0.5, 0},     {0, 0.5, 0.5},
+        {0.5, 0, 0.5},     {1. / 3, 1. / 3, 1. / 3},
+        {0.25, 0.25, 0.5}, {0.25, 0.5, 0.25},
+        {0.5, 0.25, 0.25}};
+    const auto& corners = mesh_.triangles[triangle];
+    Deviation deviation{0, longest_side(triangle)};
+    for (std::size_t i = 0; i < 7; ++i) {
+      const auto& share = kShares[i];
       gp_XYZ p;
       gp_XY at;
       for (std::size_t k = 0; k < 3; ++k) {
         p += mesh_.points[corners[k]].XYZ() * share[k];
         at += mesh_.uv[corners[k]] * share[k];
       }
-      greatest = std::max(greatest, surface_.distance(p, at, chordal_error_));
+      const double distance = surface_.distance(p, at, chordal_error_);
+      if (i < 3 && distance > std::max(chordal_error_, deviation.greatest)) {
+        deviation.side.k = i;
+      }
+      deviation.greatest = std::max(deviation.greatest, distance);
     }
-    return greatest;
+    return deviation;
+  }
+
+  // Whether splits bring it nearer to the surface. Of a smooth one two bring it
+  // four times as near; but where an edge of the face is off the surface, as
+  // many programs write it, none do.
+  bool gains(Index triangle, double deviation) {
+    constexpr int kPatience = 6;
+    Progress& progress = progress_[triangle];
+    if (std::isinf(progress.before) || progress.splits >= kPatience) {
+      if (deviation > progress.before / 2) return false;
+      progress = {deviation, 0};
+    }
+    return true;
   }
 
   // Returns false for a triangle that is small enough to be left, or where many
   // have been split already.
-  bool split(Index triangle) {
+  bool split(Side side) {
     constexpr std::size_t kMostNew = 100000;
-    const Side side = longest_side(triangle);
     if (length(side) < chordal_error_ / 2) return false;
     if (mesh_.points.size() - first_new_ > kMostNew) return false;
     if (pairs_.empty()) find_pairs();
     const Index other = neighbour(side);
     if (other == kNone) {
-      split_at_middle(triangle);
+      split_at_middle(side.triangle);
     } else {
       split_pair(side, other);
     }
@@ -138,8 +170,9 @@ class Refiner {
     mesh_.uv.push_back(uv);
     return static_cast<Index>(mesh_.points.size() - 1);
   }
-  Index add_triangle(Index a, Index b, Index c) {
+  Index add_triangle(Index a, Index b, Index c, Index part_of) {
     mesh_.triangles.push_back({a, b, c});
+    progress_.push_back(progress_[part_of]);
     return static_cast<Index>(mesh_.triangles.size() - 1);
   }
   void set(Index triangle, Index a, Index b, Index c) {
@@ -162,10 +195,12 @@ class Refiner {
       if (corner != a && corner != b) d = corner;
     }
     const Index m = add_point((mesh_.uv[a] + mesh_.uv[b]) * 0.5);
+    ++progress_[triangle].splits;
+    ++progress_[other].splits;
     set(triangle, a, m, c);
     set(other, m, a, d);
-    const Index third = add_triangle(m, b, c);
-    const Index fourth = add_triangle(b, m, d);
+    const Index third = add_triangle(m, b, c, triangle);
+    const Index fourth = add_triangle(b, m, d, other);
     doubtful_.push_back(third);
     doubtful_.push_back(fourth);
     replace(b, c, triangle, third);
@@ -181,9 +216,10 @@ class Refiner {
     const auto [a, b, c] = mesh_.triangles[triangle];
     const Index m =
         add_point((mesh_.uv[a] + mesh_.uv[b] + mesh_.uv[c]) * (1. / 3));
+    ++progress_[triangle].splits;
     set(triangle, a, b, m);
-    const Index second = add_triangle(b, c, m);
-    const Index third = add_triangle(c, a, m);
+    const Index second = add_triangle(b, c, m, triangle);
+    const Index third = add_triangle(c, a, m, triangle);
     doubtful_.push_back(second);
     doubtful_.push_back(third);
     replace(b, c, triangle, second);
@@ -196,7 +232,8 @@ class Refiner {
   Surface surface_;
   double chordal_error_;
   FaceMesh& mesh_;
-  std::size_t first_new_;  // of the points
+  std::size_t first_new_;           // of the points
+  std::vector<Progress> progress_;  // of the triangles
   std::vector<Index> doubtful_;
   std::unordered_map<std::uint64_t, Pair> pairs_;  // by side
 };

@@ -3,7 +3,6 @@
 // for.
 
 #include <BRepAdaptor_Surface.hxx>
-#include <ShapeAnalysis_Surface.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <gp_Pnt.hxx>
@@ -23,17 +22,17 @@ class Surface {
   bool is_plane() const { return adaptor_.GetType() == GeomAbs_Plane; }
   gp_Pnt at(gp_XY uv) const { return adaptor_.Value(uv.X(), uv.Y()); }
 
-  // The distance of p, or any that is at most `enough`: that of the point at
-  // (u, v), which need not be the nearest, and where it is too far that of
-  // nearer ones.
-  double distance(const gp_Pnt& p, gp_XY uv, double enough);
+  // The distance of p from the nearest point that a few steps find from (u, v)
+  // on, or from any that is at most `enough` away. So it is never too small.
+  //
+  // OpenCASCADE's search over the whole surface costs a thousand times as much,
+  // and finds no nearer point where (u, v) are the parameters of a triangle.
+  double distance(const gp_Pnt& p, gp_XY uv, double enough) const;
 
  private:
-  double searched_distance(const gp_Pnt& p);
+  gp_XY inside(gp_XY uv) const;
 
-  TopoDS_Face face_;
   BRepAdaptor_Surface adaptor_;
-  Handle(ShapeAnalysis_Surface) search_;
 };
 
 }  // namespace lamina::cad

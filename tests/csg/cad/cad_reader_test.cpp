@@ -41,6 +41,13 @@ std::string seed(const std::string& name) {
   return bytes_of(std::string(LAMINA_SEEDS) + "/" + name);
 }
 
+std::string replaced(std::string text, const std::string& from,
+                     const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
 double volume_of(const csg::Mesh& mesh) {
   double volume = 0;
   for (const auto& t : mesh.triangles) {
@@ -154,6 +161,18 @@ TEST_F(CadReader, NamesSolids) {
   EXPECT_EQ(part.bodies[0].name.substr(0, 7), "bracket");
 }
 
+// No smaller triangle is nearer to a surface that is not at its face's edges.
+TEST_F(CadReader, SplitsNoTrianglesInVain) {
+  const std::string off =
+      replaced(seed("step/cylinder"), "'',#32,5.)", "'',#32,5.05)");
+  const Part part = read(off, Format::kStep);
+  ASSERT_EQ(part.bodies.size(), 1U);
+  EXPECT_LT(part.bodies[0].mesh.triangles.size(), 30000U);
+  ASSERT_EQ(part.warnings.size(), 1U);
+  EXPECT_NE(part.warnings[0].find("deviates by 0.05"), std::string::npos)
+      << part.warnings[0];
+}
+
 // One face of three is missing: what is left is a shell, and open.
 TEST_F(CadReader, ReportsWhatIsOpen) {
   std::string step = seed("step/cylinder");
@@ -214,13 +233,6 @@ TEST_F(CadReader, SaysThatABrepIsCutOff) {
           << name << i << words;
     }
   }
-}
-
-std::string replaced(std::string text, const std::string& from,
-                     const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 // A cylinder, and `second` for a further solid beside it.
