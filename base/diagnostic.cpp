@@ -109,13 +109,15 @@ void append_terminal_text(std::string& text, SourceRange range,
                         message_text(message));
     return;
   }
-  if (range.is_known()) {
+  if (range.is_written()) {
     const LineColumn place = range.source->line_column(range.begin);
     text += fmt::format("{}:{}:{}: ", name_of_place(*range.source), place.line,
                         place.column);
+  } else if (range.is_known()) {
+    text += name_of_place(*range.source) + ": ";
   }
   text += fmt::format("{}{}\n", prefix, message_text(message));
-  if (range.is_known()) append_carets(text, range);
+  if (range.is_written()) append_carets(text, range);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ std::size_t skip_string(std::string_view text, std::size_t opening) {
 
 }  // namespace
 
-Source::Source(std::string path, std::string text)
-    : path_(std::move(path)), text_(std::move(text)) {
+Source::Source(std::string path, std::string text, bool is_implied)
+    : path_(std::move(path)), text_(std::move(text)), is_implied_(is_implied) {
   line_starts_.push_back(0);
   std::size_t end = text_.find('\n');
   while (end != std::string::npos) {
@@ -85,8 +85,9 @@ std::string_view SourceRange::text() const {
   return std::string_view(source->text()).substr(begin, end - begin);
 }
 
-const Source& SourceStore::add(std::string path, std::string text) {
-  return sources_.emplace_back(std::move(path), std::move(text));
+const Source& SourceStore::add(std::string path, std::string text,
+                               bool is_implied) {
+  return sources_.emplace_back(std::move(path), std::move(text), is_implied);
 }
 
 }  // namespace lamina

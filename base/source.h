@@ -26,11 +26,14 @@ struct LineColumn {
 // The text of a file, or that of `-D`.
 class Source {
  public:
-  // path  as messages show it and as relative file names are resolved against
-  Source(std::string path, std::string text);
+  // path        as messages show it and as relative file names are resolved
+  //             against
+  // is_implied  whether nobody wrote the text: it imports the file at `path`
+  Source(std::string path, std::string text, bool is_implied = false);
 
   const std::string& path() const { return path_; }
   const std::string& text() const { return text_; }
+  bool is_implied() const { return is_implied_; }
 
   // O(log lines). An offset past the end is the place behind the last byte.
   LineColumn line_column(std::uint32_t offset) const;
@@ -52,6 +55,7 @@ class Source {
   std::size_t definitions_begin_ = std::string::npos;
   std::vector<std::uint32_t> line_starts_;
   bool has_returns_ = false;
+  bool is_implied_ = false;
 };
 
 // Bytes [begin, end) of one source; no source means "no place".
@@ -61,6 +65,8 @@ struct SourceRange {
   std::uint32_t end = 0;
 
   bool is_known() const { return source != nullptr; }
+  // Whether a user can look it up: it stands in a text that somebody wrote.
+  bool is_written() const { return is_known() && !source->is_implied(); }
   // Whether it stands in the definitions of `-D`.
   bool is_defined_by_option() const {
     return is_known() && begin >= source->definitions_begin();
@@ -75,7 +81,8 @@ struct SourceRange {
 // Owns sources; their addresses stay valid as long as the store lives.
 class SourceStore {
  public:
-  const Source& add(std::string path, std::string text);
+  const Source& add(std::string path, std::string text,
+                    bool is_implied = false);
 
  private:
   std::deque<Source> sources_;

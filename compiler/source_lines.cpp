@@ -14,6 +14,7 @@ namespace {
 
 std::string place_of(const SourceRange& range) {
   if (!range.is_known()) return {};
+  if (!range.is_written()) return on_one_line(shown_path(range.source->path()));
   const LineColumn at = range.source->line_column(range.begin);
   return fmt::format("{}:{}:{}", on_one_line(shown_path(range.source->path())),
                      at.line, at.column);

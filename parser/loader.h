@@ -53,6 +53,9 @@ class Loader {
   // and relative names are resolved against; no file needs to be there.
   ast::Program load_text(const std::string& path, std::string text);
 
+  // As load_text(), of a text that nobody wrote: it imports the file at `path`.
+  ast::Program load_implied(const std::string& path, std::string text);
+
   // The program behind an entry of Program::uses; null where the file is
   // missing or has syntax errors. Valid as long as the Loader lives; two
   // entries that name one file have one program.
@@ -89,8 +92,11 @@ class Loader {
 
  private:
   void load_uses(const ast::Program& program);
-  ast::Program parse_file(const std::string& path, std::string text,
-                          const Source* user);
+  // The text with what `-D` appends.
+  const Source& with_definitions(const std::string& path, std::string text,
+                                 bool is_implied = false);
+  ast::Program parse_source(const Source& source, const Source* user);
+  ast::Program load_source(const Source& source);
   std::optional<ast::Program> load_used(const std::string& path,
                                         const Source& user);
   std::string look_up(SourceRange place, std::string_view name,

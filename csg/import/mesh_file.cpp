@@ -52,11 +52,20 @@ PlacedMeshes parse(std::string_view bytes, const ImportParams& params) {
   return meshes;
 }
 
+}  // namespace
+
+std::string at_import(SourceRange range) {
+  return range.is_written()
+             ? fmt::format(", import() at line {}", range.openscad_line())
+             : std::string();
+}
+
+namespace {
+
 // The warnings in the words of OpenSCAD, which differ from format to format.
 std::string warning_text(std::string_view words, const std::string& path,
                          SourceRange range) {
-  return fmt::format("{} '{}', import() at line {}", words, path,
-                     range.openscad_line());
+  return fmt::format("{} '{}'{}", words, path, at_import(range));
 }
 
 void report_broken(const std::string& path, ImportFormat format,
@@ -163,16 +172,16 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
     return {};
   }
   for (const std::string& words : meshes.passed_over) {
-    diagnostics.warning(range, fmt::format("'{}' {}, import() at line {}", path,
-                                           words, range.openscad_line()));
+    diagnostics.warning(
+        range, fmt::format("'{}' {}{}", path, words, at_import(range)));
   }
   std::vector<RawMesh>& bodies = meshes.bodies;
   if (std::any_of(bodies.begin(), bodies.end(),
                   [](const RawMesh& raw) { return raw.is_stand_in; })) {
     diagnostics.warning(
         range, fmt::format("'{}' shows its part by slices, and its mesh only "
-                           "stands in for them, import() at line {}",
-                           path, range.openscad_line()));
+                           "stands in for them{}",
+                           path, at_import(range)));
   }
   for (const RawMesh& raw : bodies) {
     LAMINA_CHECK_EQ(raw.count_stray_corners(), 0U);

@@ -16,6 +16,10 @@
 
 namespace lamina::csg {
 
+// ", import() at line 7", as OpenSCAD ends messages on files; nothing where
+// nobody wrote the import().
+std::string at_import(SourceRange range);
+
 // One body. Nothing is repaired yet and equal vertices need not be one, but
 // every index names a vertex. Faces are counter-clockwise from outside, if the
 // file keeps to that.

@@ -247,22 +247,20 @@ plane::Region read_svg(const ImportParams& params, const Fineness& fineness,
                        Diagnostics& diagnostics) {
   const auto bytes = access.read_regular(std::string(params.path));
   if (!bytes) {
-    diagnostics.error(range,
-                      fmt::format("Can't open file '{}', import() at line {}",
-                                  params.path, range.openscad_line()));
+    diagnostics.error(range, fmt::format("Can't open file '{}'{}", params.path,
+                                         at_import(range)));
     return {};
   }
   SvgDrawing drawing;
   try {
     drawing = parse_svg(*bytes, svg_options(params, fineness));
   } catch (const FormatError& fault) {
-    diagnostics.report(
-        {Severity::kError,
-         range,
-         fmt::format("Error parsing file '{}', import() at line {}",
-                     params.path, range.openscad_line()),
-         {},
-         {{range, fault.what()}}});
+    diagnostics.report({Severity::kError,
+                        range,
+                        fmt::format("Error parsing file '{}'{}", params.path,
+                                    at_import(range)),
+                        {},
+                        {{range, fault.what()}}});
     return {};
   }
   report_undrawn(drawing, params, range, diagnostics);
@@ -323,8 +321,8 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kUnknown:
       diagnostics_.error(
           range, fmt::format("Unsupported file format while trying to import "
-                             "file '{}', import() at line {}",
-                             quoted_path(params.path), range.openscad_line()));
+                             "file '{}'{}",
+                             quoted_path(params.path), at_import(range)));
       return {Dimension::kSolid};
     case ImportFormat::kDxf:
       return {Dimension::kFlat,

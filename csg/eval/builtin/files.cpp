@@ -175,8 +175,7 @@ void import_freecad(const std::string& path,
   // Whatever names objects, types and entries have.
   for (const std::string& note : model.notes) in.note(on_one_line(note));
   for (const std::string& warning : model.warnings) {
-    call.warn("{}, import() at line {}", on_one_line(warning),
-              range.openscad_line());
+    call.warn("{}{}", on_one_line(warning), at_import(range));
   }
   if (model.nodes.empty()) call.warn("File {} shows nothing to import", file);
   in.add_nodes(model.nodes, model.leaves, range);
