@@ -168,7 +168,8 @@ undef                   { return TOKEN_UNDEF; }
                         }
  /* 0xff is a name too, as in 2021.01; where nothing has that name, it is a
     number (csg/eval/resolve/prefixed_literal.h). */
-"$"?[a-zA-Z0-9_]+       { return TOKEN_NAME; }
+0x[0-9a-fA-F]+|0b[01]+  { return TOKEN_NAME; }
+"$"?[a-zA-Z0-9_]+       { yyextra->note_name(*range); return TOKEN_NAME; }
 
 "<="                    { return TOKEN_LESS_EQUAL; }
 ">="                    { return TOKEN_GREATER_EQUAL; }

@@ -25,8 +25,8 @@ inline std::string quoted_name(std::string_view name, Language language,
                      language == Language::k2021 ? quotes_of_2021 : "\"");
 }
 
-// A place in a text that 2021.01 cannot parse, so that the text was not written
-// for it.
+// A place in a text that 2021.01 cannot parse, or that does nothing in it, so
+// that the text was not written for it.
 struct NewerSyntax {
   SourceRange range;
   std::string_view what;  // "trailing comma"

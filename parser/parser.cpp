@@ -19,8 +19,8 @@ namespace lamina {
 ast::Program parse(const Source& source, const Source* user, Loader& loader,
                    Diagnostics& diagnostics) {
   detail::SyntaxErrors errors(diagnostics);
-  detail::Builder builder(source, user, errors, loader.file_access(),
-                          diagnostics);
+  detail::Builder builder(source, user, loader.language(), errors,
+                          loader.file_access(), diagnostics);
   detail::Reader reader(source, builder.arena(), loader, errors, diagnostics);
   detail::ParserStack stack;
   void* made = nullptr;

@@ -32,11 +32,13 @@ std::size_t Builder::ScopedNameHash::operator()(const ScopedName& key) const {
          key.scope * std::size_t{0x9e3779b97f4a7c15};
 }
 
-Builder::Builder(const Source& source, const Source* user, SyntaxErrors& errors,
-                 const FileAccess& files, Diagnostics& diagnostics)
+Builder::Builder(const Source& source, const Source* user, Language language,
+                 SyntaxErrors& errors, const FileAccess& files,
+                 Diagnostics& diagnostics)
     : program_{std::make_shared<Arena>(), &source, {}, {}, {}},
       arena_(*program_.arena),
       user_(user),
+      language_(language),
       errors_(errors),
       file_access_(files),
       diagnostics_(diagnostics) {}
@@ -85,6 +87,12 @@ void Builder::add_statement(const ast::Statement* statement) {
   if (statement != nullptr) statements_.push_back(statement);
 }
 
+void Builder::reject_since_2026(SourceRange comma) {
+  if (language_ == Language::k2021) return;
+  errors_.report(comma, "syntax error",
+                 hint_of("--language 2021 passes over a comma too many"));
+}
+
 void Builder::add_assignment(SourceRange name, Tree value, SourceRange range) {
   const std::string_view text = name.text();
   add_statement(
@@ -105,7 +113,8 @@ void Builder::warn_overwritten(std::string_view name, SourceRange before,
   const bool was_in_main = main != nullptr && same_file(*before.source, *main);
   const bool is_in_main = main != nullptr && same_file(*now.source, *main);
   const std::uint32_t line = before.source->openscad_line(before.begin);
-  std::string message = fmt::format("{} was assigned on line {}", name, line);
+  std::string message = fmt::format("{} was assigned on line {}",
+                                    quoted_name(name, language_, ""), line);
   if (!was_in_main || !is_in_main) {
     // Included once more, or meant to be overwritten by the main file?
     const bool is_same = same_file(*before.source, *now.source);

@@ -23,11 +23,13 @@ namespace lamina::detail {
 
 class Builder {
  public:
-  // source  the main text of the program
-  // user    the file whose `use` asks for it; null for a main file
-  // files   what fonts may be read
-  Builder(const Source& source, const Source* user, SyntaxErrors& errors,
-          const FileAccess& files, Diagnostics& diagnostics);
+  // source    the main text of the program
+  // user      the file whose `use` asks for it; null for a main file
+  // language  whose words messages have, and whose errors are errors
+  // files     what fonts may be read
+  Builder(const Source& source, const Source* user, Language language,
+          SyntaxErrors& errors, const FileAccess& files,
+          Diagnostics& diagnostics);
 
   Arena& arena() { return arena_; }
 
@@ -42,6 +44,9 @@ class Builder {
   void note_newer(SourceRange range, std::string_view what) {
     if (!program_.newer) program_.newer = NewerSyntax{range, what};
   }
+
+  // Reports a comma that 2021.01 passes over, where 2026 does not.
+  void reject_since_2026(SourceRange comma);
 
   // Between them stand the statements of one scope.
   Scope open_scope();
@@ -131,6 +136,7 @@ class Builder {
   ast::Program program_;
   Arena& arena_;
   const Source* user_;
+  Language language_;
   SyntaxErrors& errors_;
   const FileAccess& file_access_;
   Diagnostics& diagnostics_;

@@ -61,6 +61,19 @@ std::vector<const Source*> Reader::open_includes() const {
   return open;
 }
 
+void Reader::note_name(SourceRange name) {
+  const std::string_view text = name.text();
+  if (text[0] < '0' || text[0] > '9') return;
+  if (loader_.language() == Language::k2021) return;
+  const std::uint32_t line = name.source->line_column(name.begin).line;
+  if (!names_with_digits_.emplace(name.source, line, text).second) return;
+  diagnostics_.report(
+      {Severity::kDeprecated, name,
+       fmt::format("Variable names starting with digits (\"{}\") will be "
+                   "removed in future releases.",
+                   text)});
+}
+
 void Reader::warn_in_2026(std::string_view message) {
   if (loader_.language() == Language::k2026) {
     diagnostics_.warning(place(), std::string(message));

@@ -7,8 +7,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -47,6 +49,9 @@ class Reader {
 
   // What OpenSCAD 2021.01 accepts without a word.
   void warn_in_2026(std::string_view message);
+
+  // Says in 2026, once for each line, that a name begins with a digit.
+  void note_name(SourceRange name);
 
   // `include <…>` and `use <…>`.
   void set_file_name(std::string_view name) { file_name_ = name; }
@@ -109,6 +114,9 @@ class Reader {
   std::string string_;                 // decoded so far
   std::vector<SourceRange> brackets_;  // open
   SourceRange closed_bracket_;         // the opening one, closed last
+  // Names that begin with a digit, with their lines.
+  std::set<std::tuple<const Source*, std::uint32_t, std::string_view>>
+      names_with_digits_;
 };
 
 }  // namespace lamina::detail

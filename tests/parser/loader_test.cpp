@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "parser/customizer/program_printer.h"
@@ -98,6 +99,45 @@ TEST_F(LoaderTest, MessagesHaveTheWordsOf2026WhereThatIsAskedFor) {
                 "behavior may change in the future" +
                 place + "6\n" + "WARNING: Can't find include file 'no.scad'." +
                 place + "6\n");
+}
+
+TEST_F(LoaderTest, NamesThatBeginWithADigitAreDeprecatedIn2026) {
+  loader_.set_language(Language::k2026);
+  write("main.scad",
+        "2a = 1; echo(2a);\nfunction 3f(4x) = 4x + 2a + 0x1f + 1e3;\n"
+        "b = 1; b = 2;\n");
+  load("main.scad");
+  const auto deprecated = [](const std::string& name, int line) {
+    return fmt::format(
+        "DEPRECATED: Variable names starting with digits (\"{}\") will be "
+        "removed in future releases. in file main.scad, line {}\n",
+        name, line);
+  };
+  EXPECT_EQ(messages(),
+            deprecated("2a", 1) + deprecated("3f", 2) + deprecated("4x", 2) +
+                deprecated("2a", 2) +
+                "WARNING: \"b\" was assigned on line 3 but was overwritten in "
+                "file main.scad, line 3\n");
+}
+
+// Each is an error of OpenSCAD 2026, and fine in 2021.01.
+TEST_F(LoaderTest, CommasTooManyAreErrorsIn2026) {
+  for (const std::string text :
+       {"a = [,];", "a = [1,,2];", "a = [1, 2,,];", "a = [each [1],, 2];",
+        "function f(a,, b) = a;", "function f(, a) = a;",
+        "function f(a,,) = a;", "module m(,) {}", "m(1,, 2);", "m(, 1);",
+        "for (i = [1],, k = [2]) m();", "f = function(a,, b) a;"}) {
+    write("main.scad", text);
+    loader_.set_language(Language::k2021);
+    EXPECT_NO_THROW(load("main.scad")) << text;
+    loader_.set_language(Language::k2026);
+    EXPECT_THROW(load("main.scad"), SyntaxError) << text;
+  }
+  for (const std::string text :
+       {"a = [];", "a = [1,];", "function f(a, b,) = a;", "m(1, 2,);"}) {
+    write("main.scad", text);
+    EXPECT_NO_THROW(load("main.scad")) << text;
+  }
 }
 
 TEST_F(LoaderTest, AFolderIsNoFile) {
