@@ -21,9 +21,20 @@ using slicer::OutputFormat;
 ast::Program read_design(const DesignRequest& request, Loader& loader) {
   if (request.text) return loader.load_text(request.path, *request.text);
   if (is_imported(request.path)) {
-    return loader.load_text(request.path, import_of(request.path));
+    return loader.load_implied(request.path, import_of(request.path));
   }
   return loader.load(request.path);
+}
+
+std::string place_of(const NewerSyntax& newer) {
+  const SourceRange& range = newer.range;
+  return fmt::format("{}:{}: {}", display_path(range.source->path()),
+                     range.source->line_column(range.begin).line, newer.what);
+}
+
+void say_newer(const NewerSyntax& newer, Diagnostics& diagnostics) {
+  diagnostics.own_remark(
+      {}, fmt::format("read as OpenSCAD 2026 ({})", place_of(newer)));
 }
 
 // What only a later version than 2021.01 can parse was not written for it.
@@ -33,12 +44,7 @@ Language choose_language(const DesignRequest& request, const Loader& loader,
   if (request.language == "2026") return Language::k2026;
   const std::optional<NewerSyntax>& newer = loader.newer_syntax();
   if (!newer) return Language::k2021;
-  const SourceRange& range = newer->range;
-  diagnostics.own_remark(
-      {},
-      fmt::format("read as OpenSCAD 2026 ({}:{}: {})",
-                  display_path(range.source->path()),
-                  range.source->line_column(range.begin).line, newer->what));
+  say_newer(*newer, diagnostics);
   return Language::k2026;
 }
 
@@ -147,7 +153,45 @@ LoadedDesign load(const DesignRequest& request, Loader& loader,
   return design;
 }
 
-csg::Tree evaluate(const LoadedDesign& design, const Request& request,
+namespace {
+
+// Evaluates a design whose text leaves the language open: as 2021.01, until
+// what runs was not written for that. Messages wait for what comes of it.
+csg::Tree find_language_and_evaluate(LoadedDesign& design, const Loader& loader,
+                                     csg::EvaluateOptions& options,
+                                     Diagnostics& diagnostics) {
+  options.finds_language = true;
+  Diagnostics waiting;
+  waiting.set_hard_warnings(diagnostics.has_hard_warnings());
+  const auto report_all = [&] {
+    for (const Diagnostic& message : waiting.all()) diagnostics.report(message);
+  };
+  csg::Tree tree;
+  try {
+    tree = csg::evaluate(design.program, loader, options, waiting);
+  } catch (...) {
+    report_all();
+    throw;
+  }
+  if (tree.newer) {
+    say_newer(*tree.newer, diagnostics);
+    design.language = options.language = Language::k2026;
+    options.finds_language = false;
+    return csg::evaluate(design.program, loader, options, diagnostics);
+  }
+  report_all();
+  if (tree.difference) {
+    diagnostics.own_remark(
+        {}, fmt::format("read as OpenSCAD 2021.01; newer ones may give other "
+                        "layers ({}), --language decides",
+                        place_of(*tree.difference)));
+  }
+  return tree;
+}
+
+}  // namespace
+
+csg::Tree evaluate(LoadedDesign& design, const Request& request,
                    const Loader& loader, Readers& readers,
                    std::size_t stack_bytes, Diagnostics& diagnostics) {
   readers.typesetter.add_fonts(loader.fonts());
@@ -155,8 +199,13 @@ csg::Tree evaluate(const LoadedDesign& design, const Request& request,
   options.language = design.language;
   options.stack_bytes = stack_bytes;
   options.text_measurer = &readers.typesetter;
+  const bool is_open =
+      design.language == Language::k2021 && request.design.language != "2021";
   try {
-    return csg::evaluate(design.program, loader, options, diagnostics);
+    return is_open
+               ? find_language_and_evaluate(design, loader, options,
+                                            diagnostics)
+               : csg::evaluate(design.program, loader, options, diagnostics);
   } catch (const InternalError&) {
     throw;
   } catch (const FileError&) {

@@ -47,8 +47,9 @@ struct Readers {
 // The CSG tree of the design. It has no root where the evaluation failed: by an
 // assertion, endless recursion or, under hard warnings, a warning.
 //
+// design       gets its language where what runs decides it
 // stack_bytes  that evaluation may use below the caller's frame
-csg::Tree evaluate(const LoadedDesign& design, const Request& request,
+csg::Tree evaluate(LoadedDesign& design, const Request& request,
                    const Loader& loader, Readers& readers,
                    std::size_t stack_bytes, Diagnostics& diagnostics);
 

@@ -258,6 +258,12 @@ struct Tree {
   // Paths that modules and functions named as files to read, whether they are
   // there or not; in the order of evaluation, each once.
   std::vector<std::string> files = {};
+  // Where the evaluation ended, as what ran was not written for 2021.01
+  // (EvaluateOptions::finds_language).
+  std::optional<NewerSyntax> newer = {};
+  // The first place, known to be one, at which the other language takes another
+  // value.
+  std::optional<NewerSyntax> difference = {};
 
   // Gives the memory of all nodes back; call chains stay.
   void drop_nodes() {

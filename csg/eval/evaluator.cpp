@@ -94,7 +94,7 @@ Tree evaluate(const ast::Program& program, const Loader& loader,
       pass(unit, in);
     } catch (const EvaluationFailure&) {
       in.drop_nodes(0);
-      diagnostics.report(in.take_failure());
+      if (!in.newer()) diagnostics.report(in.take_failure());
     } catch (const TextTooDeep&) {
       in.drop_nodes(0);
       diagnostics.error({},
@@ -103,12 +103,14 @@ Tree evaluate(const ast::Program& program, const Loader& loader,
     }
   };
   report_failure(run_program);
-  report_failure(check_view);
+  if (!in.newer()) report_failure(check_view);
   InstantiationCode root;
   root.name = "group";
   in.make_node(Group{}, root, 0);
   tree.root = in.nodes_since(0)[0];
   tree.files = in.take_files();
+  tree.newer = in.newer();
+  tree.difference = in.difference();
   return tree;
 }
 

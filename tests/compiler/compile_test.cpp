@@ -1,7 +1,10 @@
 // From a design to an output: what appears, what is said, how it ends.
 
 #include <filesystem>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -49,6 +52,74 @@ TEST(Compile, WithoutAnOutputTheSlcLiesBesideTheDesign) {
   EXPECT_EQ(layers.size(), 40U);
   EXPECT_NEAR(volume(layers), 40, 1e-4);
   EXPECT_EQ(folder.entry_count(), 2U);
+}
+
+// What runs decides the language where the text leaves it open.
+TEST(Compile, ReadsWhatDoesNothingIn2021AsWritten) {
+  const TemporaryFolder folder;
+  folder.write("used.scad", "function twice(x) = $f(x);");
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"$f = function(x) 2 * x; cube($f(1));", "1: call of a function in a $"},
+      {"use <used.scad>\n$f = function(x) 2 * x; cube(twice(1));",
+       "used.scad:1: call of a function in a $ variable"},
+      {"\nassert(version()[0] > 2022); cube(2);",
+       "2: assert() of a newer version"},
+      {"linear_extrude(h = 2) square(2);", "1: an argument that 2021.01 does"},
+      {"linear_extrude(2) fill() square(2);", "1: fill"},
+      {"x = [2, 3].xy; cube(x[0]);", "1: several members"},
+      {"s = object(a = 2); cube(s.a);", "1: object"}};
+  for (const auto& [text, what] : cases) {
+    folder.write("a.scad", "echo(1);" + text);
+    const auto found = run(folder, {"a.scad"});
+    EXPECT_EQ(found.status, 0) << found.errors;
+    EXPECT_TRUE(has(found.errors, "read as OpenSCAD 2026 (")) << found.errors;
+    EXPECT_TRUE(has(found.errors, what)) << found.errors;
+    // Nothing is said twice.
+    EXPECT_EQ(found.errors.find("ECHO: 1"), found.errors.rfind("ECHO: 1"));
+    EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 8, 1e-4) << text;
+    const auto told = run(folder, {"a.scad", "--language", "2021"});
+    EXPECT_FALSE(has(told.errors, "read as OpenSCAD 2026")) << told.errors;
+  }
+}
+
+TEST(Compile, SaysWhereTheLanguagesMayGiveOtherLayers) {
+  const TemporaryFolder folder;
+  folder.write("used.scad", "$fn = 9;\nmodule pin() cylinder(2, 2);");
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"use <used.scad>\npin();", "used.scad:1: only 2021.01 sets it"},
+      {"module m() { $x = 2; children(); }\nm() { y = $x; cube(y); }",
+       "a.scad:2: in 2021.01 it does not see"},
+      {"module m() children($fn = 1);\nm() { cube(1); cube(2); }",
+       "a.scad:1: arguments of children()"},
+      {"union($fn = 5) cylinder(2, 2);", "a.scad:1: arguments of a Boolean"}};
+  const std::string remark = "newer ones may give other layers (";
+  for (const auto& [text, what] : cases) {
+    folder.write("a.scad", "$x = 1;" + text);
+    const auto open = run(folder, {"a.scad"});
+    EXPECT_TRUE(has(open.errors, remark)) << open.errors;
+    EXPECT_TRUE(has(open.errors, what)) << open.errors;
+    for (const std::string language : {"2021", "2026"}) {
+      EXPECT_FALSE(
+          has(run(folder, {"a.scad", "--language", language}).errors, remark));
+    }
+  }
+  folder.write("a.scad", "$fn = 9; union() cylinder(2, 2);");
+  EXPECT_FALSE(has(run(folder, {"a.scad"}).errors, remark));
+}
+
+// Messages point at no import() that nobody wrote.
+TEST(Compile, NamesAFileThatItSlicesWithoutALine) {
+  const TemporaryFolder folder;
+  folder.write("part.stl", "junk");
+  EXPECT_EQ(run(folder, {"part.stl"}).errors,
+            "part.stl: error: STL file is neither text nor a whole header "
+            "importing file '" +
+                folder.file("part.stl") +
+                "'\nerror: Current top level object is empty.\n");
+  EXPECT_TRUE(run(folder, {"none.stl"})
+                  .errors.starts_with("none.stl: warning: Can't open import "
+                                      "file '" +
+                                      folder.file("none.stl") + "'\n"));
 }
 
 // From 2^13 mm on, float32 numbers are 2^-10 mm apart; from 2^14 mm on, 2^-9.

@@ -78,6 +78,13 @@ Value builtin_is_num(const CallCode& code, Frame& frame) {
   });
 }
 
+// A function that 2021.01 lacks.
+template <BuiltinFunction function>
+Value newer(const CallCode& code, Frame& frame) {
+  frame.in.note_newer(code.range, code.name);
+  return function(code, frame);
+}
+
 std::span<const BuiltinFunctionRow> program_rows() {
   static constexpr BuiltinFunctionRow kRows[] = {
       {"search", builtin_search},
@@ -92,12 +99,12 @@ std::span<const BuiltinFunctionRow> program_rows() {
       {"is_list", is_type<Type::kVector>},
       {"is_function", is_type<Type::kFunction>},
       {"is_num", builtin_is_num},
-      {"is_object", builtin_is_object},
-      {"object", builtin_object},
-      {"has_key", builtin_has_key},
-      {"import", builtin_import},
-      {"textmetrics", builtin_textmetrics},
-      {"fontmetrics", builtin_fontmetrics},
+      {"is_object", newer<builtin_is_object>},
+      {"object", newer<builtin_object>},
+      {"has_key", newer<builtin_has_key>},
+      {"import", newer<builtin_import>},
+      {"textmetrics", newer<builtin_textmetrics>},
+      {"fontmetrics", newer<builtin_fontmetrics>},
   };
   return kRows;
 }

@@ -17,6 +17,9 @@ namespace lamina::csg {
 
 ModuleCall::ModuleCall(const BuiltinModuleCode& called, Frame& caller)
     : code(called), frame(caller), in(caller.in) {
+  if (code.plan->has_newer_argument) {
+    in.note_newer(code.range, "an argument that 2021.01 does not know");
+  }
   for (const std::string& warning : code.plan->warnings) {
     frame.in.warn(code.range, warning, frame.document);
   }
@@ -160,6 +163,10 @@ std::optional<Value> index_of_children(const BuiltinModuleCode& code,
                                        Frame& frame) {
   if (frame.in.is_2021()) {
     if (code.arguments.empty()) return std::nullopt;
+    if (const std::string_view name = code.arguments[0].name;
+        !name.empty() && name != "index") {
+      frame.in.note_difference(code.range, "arguments of children()");
+    }
     return run(code.arguments[0].value, frame);
   }
   const ModuleCall call(code, frame);
@@ -177,6 +184,10 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
   if (frame.children == nullptr) return;  // not inside a module
   const std::size_t mark = frame.in.node_mark();
   const bool is_2021 = frame.in.is_2021();
+  if (is_2021 && frame.children->reads_dynamic) {
+    frame.in.note_difference(frame.children->assignments[0].range,
+                             "in 2021.01 it does not see what the module sets");
+  }
   const std::optional<Value> index = index_of_children(code, frame);
   if (!index) {
     if (!is_2021) run_assignments(*frame.children, *frame.children_frame);

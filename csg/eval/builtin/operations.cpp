@@ -27,7 +27,11 @@ namespace {
 template <typename Op>
 void plain_operation(const BuiltinModuleCode& code, Frame& frame) {
   const std::size_t mark = frame.in.node_mark();
-  if (!frame.in.is_2021()) const ModuleCall call(code, frame);
+  if (!frame.in.is_2021()) {
+    const ModuleCall call(code, frame);
+  } else if (!code.arguments.empty()) {
+    frame.in.note_difference(code.range, "arguments of a Boolean");
+  }
   run_block(*code.block, frame);
   frame.in.make_node(Op{}, code, mark);
 }
@@ -327,6 +331,13 @@ void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
   in.make_node(extrude, code, mark);
 }
 
+// A module that 2021.01 lacks.
+template <BuiltinModule module>
+void newer(const BuiltinModuleCode& code, Frame& frame) {
+  frame.in.note_newer(code.range, code.name);
+  module(code, frame);
+}
+
 }  // namespace
 
 std::vector<BuiltinModuleRow> operation_rows() {
@@ -348,11 +359,11 @@ std::vector<BuiltinModuleRow> operation_rows() {
       {"color", run_operation<color>, {"c", "alpha"}},
       {"render", run_operation<render>, {"convexity"}},
       {"hull", run_operation<outline<Hull>>, {}},
-      {"fill", run_operation<outline<Fill>>, {}},
+      {"fill", newer<run_operation<outline<Fill>>>, {}},
       {"minkowski", run_operation<minkowski>, {"convexity"}},
       {"resize", run_operation<resize>, {"newsize", "auto", "convexity"}},
       {"projection", run_operation<projection>, {"cut"}, {"convexity"}},
-      {"roof", run_operation<roof>, {"method"}, {"convexity"}},
+      {"roof", newer<run_operation<roof>>, {"method"}, {"convexity"}},
       {"offset", run_operation<offset>, {"r"}, {"delta", "chamfer"}},
       {"linear_extrude",
        linear_extrude,

@@ -125,6 +125,9 @@ class Planner {
     if (known != nullptr && !known->is_extra) return;
     const Language language =
         plan_.evaluates_fallbacks_last ? Language::k2026 : Language::k2021;
+    if (known != nullptr && language == Language::k2021) {
+      plan_.has_newer_argument = true;
+    }
     warn("variable {} not specified as parameter",
          quoted_name(name, language, ""));
   }

@@ -256,6 +256,8 @@ struct ArgumentPlan {
   // are set after both. Else each is set at once, fallbacks first.
   bool evaluates_fallbacks_last = false;
   std::vector<std::string> warnings;
+  // Whether one is given that only 2026 knows.
+  bool has_newer_argument = false;
 };
 
 // What named functions and function literals have in common.
@@ -359,6 +361,8 @@ struct Block {
   // The assignments belong to the call: they run once, before its arguments.
   // Else they run whenever the children do.
   bool assigns_before_call = true;
+  // Whether the assignments read `$` variables, which what is called may set.
+  bool reads_dynamic = false;
   std::span<const InstantiationCode* const> statements;
   // Variables of the block that code may read before they are set.
   std::span<const std::uint32_t> resets;

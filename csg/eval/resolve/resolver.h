@@ -145,6 +145,7 @@ class Resolver : public LazyResolver {
   }
 
   OpenVariables open_variables;
+  std::size_t dynamic_reads = 0;  // of `$` variables, so far
   DynamicNames& names() { return names_; }
   Language language() const { return options_.language; }
   std::uint32_t next_call_number() { return counts_.calls++; }

@@ -109,7 +109,9 @@ Block* StatementResolver::block(ast::Statements statements,
   const NestedScope open(resolver_, scope_);
   auto* block = resolver_.make<Block>();
   block->assigns_before_call = resolver_.language() == Language::k2021;
+  const std::size_t reads = resolver_.dynamic_reads;
   block->assignments = assignments(statements, nullptr);
+  block->reads_dynamic = resolver_.dynamic_reads != reads;
   if (resolve_between) resolve_between();
   block->statements = instantiations(statements);
   block->resets = resolver_.keep(scope_->resets);

@@ -118,6 +118,7 @@ const Expression* ExpressionResolver::variable(std::string_view name,
                                                SourceRange range,
                                                Unknown unknown) {
   if (is_dynamic_name(name)) {
+    ++resolver_.dynamic_reads;
     auto* code = make<DynamicVariable>(run_dynamic, range);
     code->index = resolver_.names().number_of(name);
     code->name = name;

@@ -393,6 +393,7 @@ Value run_call_value(const Expression& expression, Frame& frame) {
   const Value callee = run(code.callee, frame);
   if (callee.is_function()) {
     if (code.is_name && code.name[0] == '$' && frame.in.is_2021()) {
+      frame.in.note_newer(code.range, "call of a function in a $ variable");
       warn(frame, code.range,
            "Can't call function on dynamically scoped variable");
       return Value();

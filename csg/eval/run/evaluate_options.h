@@ -15,6 +15,8 @@ inline constexpr std::uint32_t kMostNestedCalls = 300000;
 
 struct EvaluateOptions {
   Language language = Language::k2021;
+  // Whether to end where what runs was not written for 2021.01 (Tree::newer).
+  bool finds_language = false;
   bool preview = true;     // $preview
   double time = 0;         // $t
   std::uint32_t seed = 0;  // of rands() without a seed

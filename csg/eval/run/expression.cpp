@@ -126,7 +126,13 @@ const Value& look_further(const Expression* code, Frame& frame, Value& spill) {
 Value run_member(const Expression& expression, Frame& frame) {
   const auto& code = as<MemberCode>(expression);
   Value spill;
-  return member(look(code.object, frame, spill), code.name);
+  const Value& object = look(code.object, frame, spill);
+  if (object.is_vector() && code.name.size() > 1) {
+    const Value found = member(object, code.name);
+    if (found.is_vector()) frame.in.note_newer(code.range, "several members");
+    return found;
+  }
+  return member(object, code.name);
 }
 
 namespace {
@@ -247,6 +253,7 @@ void run_assert(const AssertCode& code, Frame& frame) {
     const std::string text = expression_text(*code.condition_text);
     diagnostic.message += " '" + text + "'";
     if (frame.in.is_2021() && text.find("version") != std::string::npos) {
+      frame.in.note_newer(code.range, "assert() of a newer version");
       diagnostic.hints.push_back(
           {{},
            "read as OpenSCAD 2021.01; --language 2026 reads it as newer ones"});

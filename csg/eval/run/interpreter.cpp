@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <sanitizer/asan_interface.h>
 
+#include "csg/eval/value/operators.h"
+
 namespace lamina::csg {
 
 namespace {
@@ -119,12 +121,21 @@ void Interpreter::fail(SourceRange range, std::string message,
 }
 
 void Interpreter::fail(Diagnostic diagnostic) {
+  failure_ = std::make_unique<Diagnostic>(std::move(diagnostic));
+  throw_failure();
+}
+
+void Interpreter::fail_newer(SourceRange range, std::string_view what) {
+  newer_ = NewerSyntax{range, what};
+  throw_failure();
+}
+
+void Interpreter::throw_failure() {
   // Tell AddressSanitizer that the exception leaves these frames: on a stack as
   // large as this one it does not see that. In other builds this does nothing.
   void* const here = __builtin_frame_address(0);
   ASAN_UNPOISON_MEMORY_REGION(
       here, stack_begin_ - reinterpret_cast<std::uintptr_t>(here));
-  failure_ = std::make_unique<Diagnostic>(std::move(diagnostic));
   throw EvaluationFailure();
 }
 
@@ -230,6 +241,18 @@ const LiteralCall& Interpreter::find_plan(const CallCode& call,
 
 // --- Used files -------------------------------------------------------------
 
+void Interpreter::note_own_dynamic(const Unit& unit, std::uint32_t index,
+                                   const Value& of_caller, const Value& own) {
+  if (difference_ || are_equal(of_caller, own)) return;
+  for (const Binding& binding : unit.body.assignments) {
+    if (binding.target.kind == Target::Kind::kDynamic &&
+        binding.target.index == index) {
+      note_difference(binding.range,
+                      "only 2021.01 sets it for calls from other files");
+    }
+  }
+}
+
 // In 2021 what is called sees the `$` variables that its file sets; in 2026
 // only the file's own assignments do.
 Frame& Interpreter::enter_unit(const Unit& unit) {
@@ -238,6 +261,7 @@ Frame& Interpreter::enter_unit(const Unit& unit) {
       known.frame != nullptr) {
     if (is_2021()) {
       for (const auto& [index, value] : known.dynamic_values) {
+        note_own_dynamic(unit, index, dynamic_[index], value);
         bind_dynamic(index, value);
       }
     }
@@ -259,7 +283,14 @@ Frame& Interpreter::enter_unit(const Unit& unit) {
     }
     known.frame = &made.frame;
   }
-  if (!is_2021()) unwind(mark);
+  if (!is_2021()) {
+    unwind(mark);
+  } else {
+    for (std::size_t i = mark; i < trail_.size(); ++i) {
+      const auto& [index, of_caller] = trail_[i];
+      note_own_dynamic(unit, index, of_caller, dynamic_[index]);
+    }
+  }
   return made.frame;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -67,6 +68,17 @@ class Interpreter {
   [[noreturn]] void fail_recursion(SourceRange range, std::string_view kind,
                                    std::string_view name,
                                    const Source* document);
+  // Says that what runs does nothing in 2021.01. Ends the evaluation where the
+  // language is still to be found.
+  void note_newer(SourceRange range, std::string_view what) {
+    if (options_.finds_language && range.is_known()) fail_newer(range, what);
+  }
+  const std::optional<NewerSyntax>& newer() const { return newer_; }
+  // Says that the other language takes something else here.
+  void note_difference(SourceRange range, std::string_view what) {
+    if (!difference_) difference_ = NewerSyntax{range, what};
+  }
+  const std::optional<NewerSyntax>& difference() const { return difference_; }
   // The message that ended the evaluation: an error or, under hard warnings, a
   // warning.
   Diagnostic take_failure() { return std::move(*failure_); }
@@ -230,7 +242,14 @@ class Interpreter {
   };
 
   void assign_unusual(const Target& target, Value value, Frame& frame);
+  // Notes a difference where the caller has another value of the `$` variable
+  // that the file sets.
+  void note_own_dynamic(const Unit& unit, std::uint32_t index,
+                        const Value& of_caller, const Value& own);
   [[noreturn]] void fail_steps();
+  [[noreturn]] void fail_newer(SourceRange range, std::string_view what);
+  // Leaves for the evaluator.
+  [[noreturn]] void throw_failure();
   [[noreturn]] void fail_leaves(SourceRange range);
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);
@@ -257,6 +276,8 @@ class Interpreter {
   std::uint32_t depth_ = 0;
   std::uint64_t steps_left_;
   std::unique_ptr<Diagnostic> failure_;  // while it makes its way out
+  std::optional<NewerSyntax> newer_;     // likewise
+  std::optional<NewerSyntax> difference_;
   std::string design_folder_;
   std::vector<Value> dynamic_;
   std::vector<Saved> trail_;
