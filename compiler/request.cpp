@@ -20,9 +20,10 @@ bool is_imported(const std::string& path) {
                      });
 }
 
-std::string import_of(const std::string& path) {
+std::string import_of(const std::string& path, const std::string& part) {
   const std::string name = std::filesystem::path(path).filename().string();
-  return "import(" + in_quotes(name) + ");\n";
+  const std::string of = part.empty() ? "" : ", part = " + in_quotes(part);
+  return "import(" + in_quotes(name) + of + ");\n";
 }
 
 }  // namespace lamina::compiler

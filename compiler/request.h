@@ -23,6 +23,8 @@ struct DesignRequest {
   std::string path;
   // The design itself; `path` is only its name then.
   std::optional<std::string> text;
+  // The part to take of a FreeCAD file or a 3MF; empty: all that it shows.
+  std::string part;
   std::string definitions;     // of all -D, as text: "a=1;\nb=2;\n"
   std::string parameter_file;  // -p; empty: none
   std::string parameter_set;   // -P
@@ -90,7 +92,7 @@ struct Request {
 // either; import() takes its mesh.)
 bool is_imported(const std::string& path);
 
-// The text of a design that imports the file beside it.
-std::string import_of(const std::string& path);
+// The text of a design that imports the file beside it, or a part of it.
+std::string import_of(const std::string& path, const std::string& part = {});
 
 }  // namespace lamina::compiler

@@ -8,6 +8,7 @@
 
 #include <fmt/ranges.h>
 
+#include "compiler/parts.h"
 #include "slicer/check/thin/thin_finder.h"
 
 namespace lamina::compiler {
@@ -86,6 +87,12 @@ void require_heights(const std::vector<double>& heights) {
             "--heights: heights must rise");
 }
 
+void refuse_part(const DesignRequest& design) {
+  refuse_if(!design.part.empty() && (design.text || !has_parts(design.path)),
+            "--part names a part of a .FCStd or .3mf; '{}' is not one",
+            design.path);
+}
+
 void refuse_contradictions(const slicer::Settings& job) {
   const bool is_paper = job.contour == slicer::ContourMode::kPaper;
   refuse_if(job.min_feature > 0 && is_paper,
@@ -159,6 +166,7 @@ void validate(const Request& request) {
   require_word("--language", kLanguageWords, request.design.language);
   require_heights(request.job.heights);
   refuse_contradictions(request.job);
+  refuse_part(request.design);
   refuse_misfits(request);
 }
 

@@ -35,6 +35,7 @@ std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_compare_command();
 std::unique_ptr<Command> make_inspect_command();
 std::unique_ptr<Command> make_materials_command();
+std::unique_ptr<Command> make_parts_command();
 std::unique_ptr<Command> make_printers_command();
 std::unique_ptr<Command> make_view_command();
 
@@ -50,6 +51,7 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"compare", make_compare_command},
     NamedCommand{"inspect", make_inspect_command},
     NamedCommand{"materials", make_materials_command},
+    NamedCommand{"parts", make_parts_command},
     NamedCommand{"printers", make_printers_command},
     NamedCommand{"view", make_view_command}};
 

@@ -32,6 +32,8 @@ void add_design_options(OptionList& options, compiler::Request& request,
   const Option file = options.name("-p", "file", request.design.parameter_file);
   set.needs(file);
   file.needs(set);
+  options.text("--part", "name",
+               [&](const std::string& name) { request.design.part = name; });
   options.boolean("--check-parameters", request.design.checks_parameters);
   options.boolean("--check-parameter-ranges",
                   request.design.checks_parameter_ranges);

@@ -39,7 +39,7 @@ PlacedMeshes parse(std::string_view bytes, const ImportParams& params) {
       return parse_amf(bytes, std::filesystem::path(params.path).filename(),
                        placing_of(params));
     case ImportFormat::k3mf:
-      return parse_3mf(bytes, placing_of(params));
+      return parse_3mf(bytes, placing_of(params), params.id);
     case ImportFormat::kUnknown:
     case ImportFormat::kDxf:
     case ImportFormat::kSvg:

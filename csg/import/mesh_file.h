@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -97,8 +98,21 @@ PlacedMeshes parse_amf(std::string_view bytes, const std::string& name,
 // 3MF, with the parts that components name by their path (the production
 // extension): one body for each mesh object, or for each time that a build item
 // names it, through components. Colours do not count.
-PlacedMeshes parse_3mf(std::string_view bytes,
-                       Placing placing = Placing::kNone);
+//
+// part  only what is of the object of this name or id, placed as all
+PlacedMeshes parse_3mf(std::string_view bytes, Placing placing = Placing::kNone,
+                       std::optional<std::string_view> part = std::nullopt);
+
+// An object of a 3MF.
+struct ThreemfPart {
+  std::string id;
+  std::string name;           // empty: none
+  std::size_t triangles = 0;  // its own; none where it is made of others
+  std::size_t count = 0;      // that the plate has of it
+};
+
+// The objects that parse_3mf() may be asked for, in the order of the file.
+std::vector<ThreemfPart> threemf_parts(std::string_view bytes);
 
 // The format by a file's extension, with or without its dot, in any case of
 // letters.

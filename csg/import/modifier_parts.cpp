@@ -44,7 +44,12 @@ bool is_model_part(const pugi::xml_node& volume) {
 
 ModifierParts read_modifier_parts(const ZipArchive& archive) {
   ModifierParts parts;
+  const auto take_name = [&](const pugi::xml_node& object) {
+    const std::string_view name = metadata_of(object, "name");
+    if (!name.empty()) parts.names[object.attribute("id").value()] = name;
+  };
   for_each_object(archive, kPrusaSlicer, [&](const pugi::xml_node& object) {
+    take_name(object);
     for_each_child(object, "volume", [&](const pugi::xml_node& volume) {
       if (is_model_part(volume)) return;
       const auto first =
@@ -58,6 +63,7 @@ ModifierParts read_modifier_parts(const ZipArchive& archive) {
     });
   });
   for_each_object(archive, kBambuStudio, [&](const pugi::xml_node& object) {
+    take_name(object);
     for_each_child(object, "part", [&](const pugi::xml_node& part) {
       const std::string_view type = part.attribute("subtype").value();
       if (type.empty() || type == "normal_part") return;

@@ -98,9 +98,11 @@ bool has_low_resolution(const pugi::xml_node& object) {
 // The parts of a package that hold objects, and what its build names.
 class Assembler {
  public:
-  Assembler(const ZipArchive& archive, Placing placing)
+  Assembler(const ZipArchive& archive, Placing placing,
+            std::optional<std::string_view> asked)
       : archive_(archive),
         placing_(placing),
+        asked_(asked),
         root_(model_part(archive)),
         order_{root_},
         known_{root_} {
@@ -114,7 +116,7 @@ class Assembler {
       add_all();
     } else {
       for_each_item(model, [&](const pugi::xml_node& item) {
-        add(root_, item, glm::dmat4(read_transform(item)), 0);
+        add(root_, item, glm::dmat4(read_transform(item)), !asked_);
       });
     }
     if (placing_ == Placing::kNone && is_placed(model)) {
@@ -130,11 +132,42 @@ class Assembler {
           counted(modifiers_.count, "volume", "volumes")));
     }
     heed_unit(model.attribute("unit").value(), placing_, meshes_);
+    if (asked_ && !is_found_) {
+      throw FormatError(fmt::format("3MF, there is no part '{}'", *asked_));
+    }
     return std::move(meshes_);
+  }
+
+  std::vector<ThreemfPart> parts() {
+    std::map<Name, std::size_t> counts;
+    for_each_item(
+        parts_.at(root_).document_element(), [&](const pugi::xml_node& item) {
+          walk(root_, item, glm::dmat4(1.0), 0, true,
+               [&](const Objects::value_type& object, const glm::dmat4&, bool) {
+                 ++counts[object.first];
+                 return true;
+               });
+        });
+    std::vector<ThreemfPart> all;
+    for (const std::string& part : order_) {
+      for_each_object(
+          parts_.at(part).document_element(),
+          [&](const pugi::xml_node& object) {
+            ThreemfPart& made = all.emplace_back();
+            made.id = object.attribute("id").value();
+            made.name = name_of(object);
+            made.count = counts[{part, made.id}];
+            for_each_child(object, "mesh", [&](const pugi::xml_node& mesh) {
+              made.triangles += read_body(mesh).mesh.triangles.size();
+            });
+          });
+    }
+    return all;
   }
 
  private:
   using Name = std::pair<std::string, std::string>;  // of part and object
+  using Objects = std::map<Name, pugi::xml_node>;
 
   template <typename Visit>
   static void for_each_object(const pugi::xml_node& model, Visit visit) {
@@ -215,12 +248,27 @@ class Assembler {
     return count;
   }
 
+  std::string_view name_of(const pugi::xml_node& object) const {
+    const auto named = modifiers_.names.find(object.attribute("id").value());
+    return named == modifiers_.names.end() ? object.attribute("name").value()
+                                           : std::string_view(named->second);
+  }
+  bool is_asked(const pugi::xml_node& object) {
+    if (!asked_) return true;
+    const bool is_it =
+        name_of(object) == *asked_ || object.attribute("id").value() == *asked_;
+    is_found_ |= is_it;
+    return is_it;
+  }
+
   // Each object once, where it lies.
   void add_all() {
     for (const std::string& part : order_) {
       for_each_object(parts_.at(part).document_element(),
                       [&](const pugi::xml_node& object) {
-                        add_mesh(object, glm::dmat4(1.0));
+                        if (is_asked(object)) {
+                          add_mesh(object, glm::dmat4(1.0));
+                        }
                       });
     }
   }
@@ -249,12 +297,31 @@ class Assembler {
     });
   }
 
+  // Adds what an item or component of `part` names, and its components.
+  //
+  // is_wanted  whether it is one of a part that was asked for
   void add(const std::string& part, const pugi::xml_node& reference,
-           const glm::dmat4& transform, int depth) {
+           const glm::dmat4& transform, bool is_wanted) {
+    walk(part, reference, transform, 0, is_wanted,
+         [&](const Objects::value_type& object, const glm::dmat4& placed,
+             bool is_inside_wanted) {
+           const bool is_wanted_too =
+               is_asked(object.second) || is_inside_wanted;
+           if (is_wanted_too) add_mesh(object.second, placed);
+           return is_wanted_too;
+         });
+  }
+
+  // Calls take(object, transform, value) for what an item or component of
+  // `part` names, and for its components with the value that this gives.
+  template <typename Take>
+  void walk(const std::string& part, const pugi::xml_node& reference,
+            const glm::dmat4& transform, int depth, bool value,
+            const Take& take) {
     // Objects may name each other in a circle, or double with each step.
     constexpr int kDeepest = 100;
-    constexpr std::size_t kMostBodies = 100'000;
-    if (depth > kDeepest || meshes_.bodies.size() >= kMostBodies) {
+    constexpr std::size_t kMostSteps = 100'000;
+    if (depth > kDeepest || ++steps_ > kMostSteps) {
       throw FormatError("3MF, too many components of components");
     }
     const std::string home = part_of(reference, part);
@@ -263,7 +330,7 @@ class Assembler {
     if (object == objects_.end()) {
       throw FormatError(fmt::format("3MF, there is no object '{}'", id));
     }
-    add_mesh(object->second, transform);
+    const bool inner = take(*object, transform, value);
     for_each_component(object->second, [&](const pugi::xml_node& component) {
       if (modifiers_.components.contains(
               {id, component.attribute("objectid").value()})) {
@@ -271,29 +338,38 @@ class Assembler {
       }
       const glm::dmat4 own(read_transform(component));
       // OpenSCAD applies what stands outside first.
-      add(home, component,
-          placing_ == Placing::kFile ? transform * own : own * transform,
-          depth + 1);
+      walk(home, component,
+           placing_ == Placing::kFile ? transform * own : own * transform,
+           depth + 1, inner, take);
     });
   }
 
   const ZipArchive& archive_;
   const Placing placing_;
+  const std::optional<std::string_view> asked_;
+  bool is_found_ = false;
+  std::size_t steps_ = 0;
   const std::string root_;
   std::size_t bytes_read_ = 0;
   std::map<std::string, pugi::xml_document> parts_;
   std::vector<std::string> order_;  // in which they are read
   std::set<std::string> known_;     // the same names
   ModifierParts modifiers_;
-  std::map<Name, pugi::xml_node> objects_;
+  Objects objects_;
   PlacedMeshes meshes_;
 };
 
 }  // namespace
 
-PlacedMeshes parse_3mf(std::string_view bytes, Placing placing) {
+PlacedMeshes parse_3mf(std::string_view bytes, Placing placing,
+                       std::optional<std::string_view> part) {
   const ZipArchive archive = ZipArchive::open(bytes);
-  return Assembler(archive, placing).run();
+  return Assembler(archive, placing, part).run();
+}
+
+std::vector<ThreemfPart> threemf_parts(std::string_view bytes) {
+  const ZipArchive archive = ZipArchive::open(bytes);
+  return Assembler(archive, Placing::kFile, std::nullopt).parts();
 }
 
 }  // namespace lamina::csg

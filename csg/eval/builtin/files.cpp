@@ -266,8 +266,10 @@ std::string import_text(const ImportParams& params, Frame& frame) {
   const std::string file = relative_quoted(std::string(params.path), frame);
   const std::string origin =
       fmt::format("origin = [{:g}, {:g}], ", params.origin.x, params.origin.y);
+  const char* const id_name =
+      params.format == ImportFormat::k3mf ? "part" : "id";
   const std::string id =
-      params.id ? fmt::format("id = {}, ", in_quotes(*params.id)) : "";
+      params.id ? fmt::format("{} = {}, ", id_name, in_quotes(*params.id)) : "";
   const std::string dpi = params.format == ImportFormat::kSvg
                               ? fmt::format("dpi = {:g}, ", params.dpi)
                               : "";
@@ -316,10 +318,15 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
         path, part.is_undef() ? std::nullopt : std::optional(to_text(part)),
         call);
   }
-  if (!part.is_undef()) call.warn("part= names objects of FreeCAD files only");
+  const bool is_3mf = params.format == ImportFormat::k3mf;
+  if (!part.is_undef() && !is_3mf) {
+    call.warn("part= names objects of FreeCAD and 3MF files only");
+  }
   params.rules = in.language();
   params.is_design = in.options().is_file;
-  if (!id.is_undef()) params.id = in.keep_text(to_text(id));
+  if (const Value& named = is_3mf ? part : id; !named.is_undef()) {
+    params.id = in.keep_text(to_text(named));
+  }
   if (!layer.is_undef()) params.layer = in.keep_text(to_text(layer));
   // The name is wrong in 2021.01, too.
   params.origin = read_origin(call["origin"], "linear_extrude", call);

@@ -23,6 +23,8 @@ struct ModifierParts {
       triangles;
   // Bambu Studio, OrcaSlicer: the ids of an object and of a component of it.
   std::set<std::pair<std::string, std::string>> components;
+  // Both: the names that objects have in the program, by their ids.
+  std::map<std::string, std::string> names;
 };
 
 // throws  FormatError where such a file is malformed

@@ -64,6 +64,20 @@ struct FreecadModel {
   std::vector<std::string> notes;
 };
 
+// A part as freecad_parts() lists it.
+struct FreecadPart {
+  std::string name;   // for FreecadOptions::part; so is the label
+  std::string label;  // what the user calls it
+  std::string type;   // "Part::Box"
+  bool is_visible = true;
+};
+
+// What FreecadOptions::part may name: all objects with a solid or a group of
+// such, in the order of the file.
+//
+// throws  FormatError; LimitExceeded
+std::vector<FreecadPart> freecad_parts(std::string_view bytes);
+
 // Reads the file, and those that it links to, and makes nodes, in the arena.
 //
 // throws  FormatError where the file is broken, an object is made from itself,

@@ -115,6 +115,16 @@ void Reader::read() {
   }
 }
 
+std::vector<FreecadPart> Reader::parts() const {
+  std::vector<FreecadPart> parts;
+  for (const Object& object : document_.objects()) {
+    if (!is_part(object) || is_flat(object)) continue;
+    parts.push_back({std::string(object.name()), std::string(object.label()),
+                     std::string(object.type()), object.is_visible()});
+  }
+  return parts;
+}
+
 std::vector<Solid> Reader::make_part(std::string_view name) {
   const Object* const part = document_.find_part(name);
   if (part == nullptr) {
@@ -600,6 +610,13 @@ Reader::Made Reader::make_link_array(const Object& object, const Solid& target,
 }  // namespace lamina::csg::freecad
 
 namespace lamina::csg {
+
+std::vector<FreecadPart> freecad_parts(std::string_view bytes) {
+  Arena arena;
+  const FreecadOptions options;
+  freecad::ImportState state(options, arena);
+  return freecad::Reader(std::string(bytes), {}, state).parts();
+}
 
 FreecadModel read_freecad(std::string_view bytes, const FreecadOptions& options,
                           Arena& arena) {

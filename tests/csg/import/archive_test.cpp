@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -94,6 +95,32 @@ TEST(ParseAmf, EntitiesDoNotGrow) {
   }
   text += "]>\n<amf><object>&z;</object></amf>";
   EXPECT_EQ(parse_amf(text, "a.amf").bodies.size(), 1U);
+}
+
+// Objects that double with each step, with a mesh at the end or without one.
+TEST(Parse3mf, RejectsObjectsThatDoubleTooOften) {
+  const std::string mesh =
+      k3mfModel.substr(k3mfModel.find("<mesh>"),
+                       k3mfModel.find("</object>") - k3mfModel.find("<mesh>"));
+  for (const std::string& end : {mesh, std::string()}) {
+    std::string objects;
+    for (int id = 1; id < 60; ++id) {
+      const std::string component =
+          fmt::format("<component objectid=\"{}\"/>", id + 1);
+      objects += fmt::format(
+          "<object id=\"{}\"><components>{}{}</components></object>", id,
+          component, component);
+    }
+    const std::string bytes = make_zip(
+        {{"3D/3dmodel.model",
+          fmt::format("<model><resources>{}<object id=\"60\">{}</object>"
+                      "</resources><build><item objectid=\"1\"/></build>"
+                      "</model>",
+                      objects, end)}});
+    const std::string words = "3MF, too many components of components";
+    EXPECT_EQ(fault_of([&] { parse_3mf(bytes, Placing::kFile); }), words);
+    EXPECT_EQ(fault_of([&] { threemf_parts(bytes); }), words);
+  }
 }
 
 TEST(Parse3mf, ReadsThePartThatThePackageNames) {

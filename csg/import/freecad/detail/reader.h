@@ -47,6 +47,8 @@ class Reader {
   // Makes what the file shows, or the part that the options name.
   void read();
 
+  std::vector<FreecadPart> parts() const;
+
  private:
   using Made = std::optional<Solid>;
   // why  gets the reason where there is no CSG form
