@@ -20,6 +20,10 @@ bool is_imported(const std::string& path) {
                      });
 }
 
+bool has_parts(const std::string& path) {
+  return slicer::is_named(path, ".fcstd") || slicer::is_named(path, ".3mf");
+}
+
 std::string import_of(const std::string& path, const std::string& part) {
   const std::string name = std::filesystem::path(path).filename().string();
   const std::string of = part.empty() ? "" : ", part = " + in_quotes(part);

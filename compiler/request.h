@@ -92,6 +92,10 @@ struct Request {
 // either; import() takes its mesh.)
 bool is_imported(const std::string& path);
 
+// Whether parts of the file have names that lamina reads: a FreeCAD file or a
+// 3MF. By its name.
+bool has_parts(const std::string& path);
+
 // The text of a design that imports the file beside it, or a part of it.
 std::string import_of(const std::string& path, const std::string& part = {});
 

@@ -8,7 +8,6 @@
 
 #include <fmt/ranges.h>
 
-#include "compiler/parts.h"
 #include "slicer/check/thin/thin_finder.h"
 
 namespace lamina::compiler {

@@ -1,18 +1,25 @@
 // lamina parts: what a file of several parts holds.
 
-#include "compiler/parts.h"
-
 #include <algorithm>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/diagnostic.h"
+#include "base/file/format_error.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
+#include "compiler/request.h"
 #include "compiler/validate.h"
+#include "csg/import/freecad/freecad_file.h"
+#include "csg/import/mesh_file.h"
+#include "plane/limits.h"
+#include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
 namespace {
@@ -26,6 +33,51 @@ FILE --part NAME' slices one part alone, shown or hidden.
 
   -h, --help  print this help
 )";
+
+struct Part {
+  std::string name;   // for --part; so is the label
+  std::string label;  // what its author calls it; empty: nothing else
+  std::string what;   // "Part::Box", "12 triangles"
+  bool is_shown = true;
+};
+
+std::vector<Part> read_parts(const std::string& path, std::string_view bytes) {
+  std::vector<Part> parts;
+  if (slicer::is_named(path, ".fcstd")) {
+    for (csg::FreecadPart& part : csg::freecad_parts(bytes)) {
+      const bool has_label = part.label != part.name;
+      parts.push_back({std::move(part.name), has_label ? part.label : "",
+                       std::move(part.type), part.is_visible});
+    }
+    return parts;
+  }
+  for (const csg::ThreemfPart& part : csg::threemf_parts(bytes)) {
+    parts.push_back({part.id, part.name,
+                     part.triangles == 0
+                         ? "made of others"
+                         : counted(part.triangles, "triangle", "triangles"),
+                     part.count > 0});
+  }
+  return parts;
+}
+
+// Throws FileError where the file cannot be read or is broken.
+std::vector<Part> parts_of(const std::string& path, const FileAccess& access) {
+  access.require(path);
+  const auto bytes = access.read_regular(path);
+  if (!bytes) {
+    throw FileError(fmt::format("Can't open input file '{}'!", path));
+  }
+  std::string fault;
+  try {
+    return read_parts(path, *bytes);
+  } catch (const FormatError& error) {
+    fault = error.what();
+  } catch (const plane::LimitExceeded& error) {
+    fault = error.diagnostic().message;
+  }
+  throw FileError(fmt::format("{}, reading '{}'", on_one_line(fault), path));
+}
 
 class PartsCommand : public Command {
  public:
@@ -44,8 +96,7 @@ class PartsCommand : public Command {
   int run(const Context& context) override {
     context.expect_outputs({"-"});
     try {
-      print_out(table(
-          compiler::parts_of(path_, context.temporary_files.file_access())));
+      print_out(table(parts_of(path_, context.temporary_files.file_access())));
     } catch (const Error& fault) {
       print_error(caret_text(fault.diagnostic()));
       return kFault;
@@ -54,16 +105,16 @@ class PartsCommand : public Command {
   }
 
  private:
-  static std::string table(const std::vector<compiler::FilePart>& parts) {
+  static std::string table(const std::vector<Part>& parts) {
     std::size_t name_width = 4;
     std::size_t label_width = 5;
-    for (const compiler::FilePart& part : parts) {
+    for (const Part& part : parts) {
       name_width = std::max(name_width, part.name.size());
       label_width = std::max(label_width, part.label.size());
     }
     std::string text = fmt::format("{:<{}}  {:<{}}  shown   what\n", "name",
                                    name_width, "label", label_width);
-    for (const compiler::FilePart& part : parts) {
+    for (const Part& part : parts) {
       text += fmt::format("{:<{}}  {:<{}}  {:<6}  {}\n", on_one_line(part.name),
                           name_width, on_one_line(part.label), label_width,
                           part.is_shown ? "yes" : "no", on_one_line(part.what));

@@ -77,7 +77,7 @@ TEST(Parts, AreSlicedOneByOne) {
   const auto volume = [&](const std::string& file, const std::string& part) {
     const auto result = run(folder, {file, "--part", part});
     EXPECT_EQ(result.status, 0) << result.errors;
-    return result.errors.substr(0, result.errors.find('\n'));
+    return result.errors;
   };
   EXPECT_TRUE(has(volume("a.FCStd", "Lid"), "3 x 4 x 5 mm, 60 mm³"));
   EXPECT_TRUE(has(volume("a.FCStd", "Box001"), "2 x 4 x 5 mm, 40 mm³"));

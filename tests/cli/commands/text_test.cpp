@@ -20,7 +20,8 @@ using support::TemporaryFolder;
 std::string echo_of(const std::string& design) {
   const TemporaryFolder folder;
   folder.write("a.scad", design);
-  const auto result = run(folder, {"-q", "a.scad", "-o", "a.echo"});
+  const auto result =
+      run(folder, {"-q", "a.scad", "--language", "2021", "-o", "a.echo"});
   EXPECT_EQ(result.status, 0) << result.errors;
   return read_file(folder.file("a.echo"));
 }
@@ -86,7 +87,8 @@ TEST(Text, AProgramWithoutItsModuleSaysSo) {
   const std::string program = folder.file("lamina");
   EXPECT_EQ(support::run_process({program, "b.scad"}, folder.path()).status, 0);
   for (const char* design : {"a.scad", "c.scad"}) {
-    const auto result = support::run_process({program, design}, folder.path());
+    const auto result = support::run_process(
+        {program, design, "--language", "2021"}, folder.path());
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(result.errors,
               "error: Can't find the module for text(), lamina_text.so, in " +
