@@ -21,7 +21,8 @@ using slicer::OutputFormat;
 ast::Program read_design(const DesignRequest& request, Loader& loader) {
   if (request.text) return loader.load_text(request.path, *request.text);
   if (is_imported(request.path)) {
-    return loader.load_implied(request.path, import_of(request.path, request.part));
+    return loader.load_text(request.path, import_of(request.path, request.part),
+                            true);
   }
   return loader.load(request.path);
 }

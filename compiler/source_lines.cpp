@@ -14,10 +14,10 @@ namespace {
 
 std::string place_of(const SourceRange& range) {
   if (!range.is_known()) return {};
-  if (!range.is_written()) return on_one_line(shown_path(range.source->path()));
+  const std::string path = on_one_line(shown_path(range.source->path()));
+  if (!range.is_written()) return path;
   const LineColumn at = range.source->line_column(range.begin);
-  return fmt::format("{}:{}:{}", on_one_line(shown_path(range.source->path())),
-                     at.line, at.column);
+  return fmt::format("{}:{}:{}", path, at.line, at.column);
 }
 
 std::string text_of(const SourceLine& line) {

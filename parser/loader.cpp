@@ -158,31 +158,22 @@ ast::Program Loader::load(const std::string& path) {
   return load_text(path, std::move(*text));
 }
 
-const Source& Loader::with_definitions(const std::string& path,
-                                       std::string text, bool is_implied) {
+// Parses the text of a file with what `-D` appends.
+ast::Program Loader::parse_file(const std::string& path, std::string text,
+                                const Source* user, bool is_implied) {
   text += kEndOfFile;
   text += definitions_;
-  return sources_.add(path, std::move(text), is_implied);
-}
-
-ast::Program Loader::parse_source(const Source& source, const Source* user) {
+  const Source& source = sources_.add(path, std::move(text), is_implied);
   ast::Program program = parse(source, user, *this, diagnostics_);
   if (!newer_) newer_ = program.newer;
   return program;
 }
 
-ast::Program Loader::load_source(const Source& source) {
-  ast::Program program = parse_source(source, nullptr);
+ast::Program Loader::load_text(const std::string& path, std::string text,
+                               bool is_implied) {
+  ast::Program program = parse_file(path, std::move(text), nullptr, is_implied);
   load_uses(program);
   return program;
-}
-
-ast::Program Loader::load_text(const std::string& path, std::string text) {
-  return load_source(with_definitions(path, std::move(text)));
-}
-
-ast::Program Loader::load_implied(const std::string& path, std::string text) {
-  return load_source(with_definitions(path, std::move(text), true));
 }
 
 void Loader::load_uses(const ast::Program& program) {
@@ -210,7 +201,7 @@ std::optional<ast::Program> Loader::load_used(const std::string& path,
     return std::nullopt;
   }
   try {
-    return parse_source(with_definitions(path, std::move(*text)), &user);
+    return parse_file(path, std::move(*text), &user);
   } catch (const SyntaxError&) {
     return std::nullopt;  // reported already; the names stay unknown
   }

@@ -51,10 +51,10 @@ class Loader {
 
   // Parses a text at hand, and the rest as load(). `path` is what messages show
   // and relative names are resolved against; no file needs to be there.
-  ast::Program load_text(const std::string& path, std::string text);
-
-  // As load_text(), of a text that nobody wrote: it imports the file at `path`.
-  ast::Program load_implied(const std::string& path, std::string text);
+  //
+  // is_implied  whether nobody wrote the text: it imports the file at `path`
+  ast::Program load_text(const std::string& path, std::string text,
+                         bool is_implied = false);
 
   // The program behind an entry of Program::uses; null where the file is
   // missing or has syntax errors. Valid as long as the Loader lives; two
@@ -92,11 +92,8 @@ class Loader {
 
  private:
   void load_uses(const ast::Program& program);
-  // The text with what `-D` appends.
-  const Source& with_definitions(const std::string& path, std::string text,
-                                 bool is_implied = false);
-  ast::Program parse_source(const Source& source, const Source* user);
-  ast::Program load_source(const Source& source);
+  ast::Program parse_file(const std::string& path, std::string text,
+                          const Source* user, bool is_implied = false);
   std::optional<ast::Program> load_used(const std::string& path,
                                         const Source& user);
   std::string look_up(SourceRange place, std::string_view name,
