@@ -121,25 +121,20 @@ FreecadModel read_file(std::string_view bytes, const FreecadOptions& options,
                nullptr);
 }
 
-// The file that the one at `from` links to, under the rules of all files that a
-// design names.
+// The path of the file that the one at `from` links to, under the rules of all
+// files that a design names.
 //
 // first  the path of the file that import() names
-std::optional<LinkedFreecadFile> open_linked(std::string_view from,
-                                             std::string_view linked,
-                                             const std::string& first,
-                                             const ModuleCall& call) {
+std::string_view find_linked(std::string_view from, std::string_view linked,
+                             const std::string& first, const ModuleCall& call) {
   Interpreter& in = call.in;
   const FileAccess& access = in.file_access();
   const std::string found =
       find_file(linked, std::filesystem::path(from).parent_path().string(),
                 call.code.range, in);
   in.add_file(found);
-  auto bytes = access.read_regular(found);
-  if (!bytes) return std::nullopt;
-  std::string path = access.canonical(found);
-  if (path == access.canonical(first)) path = first;
-  return LinkedFreecadFile{in.keep_text(path), *std::move(bytes)};
+  const std::string path = access.weakly_canonical(found);
+  return in.keep_text(path == access.canonical(first) ? first : path);
 }
 
 // Adds a group of what the file shows, or of the object of that name or label.
@@ -168,8 +163,11 @@ void import_freecad(const std::string& path,
                        in_quotes(name),
                        timestamp_text(std::string(of), call.frame));
   };
-  options.open_linked = [&](std::string_view from, std::string_view linked) {
-    return open_linked(from, linked, path, call);
+  options.find_linked = [&](std::string_view from, std::string_view linked) {
+    return find_linked(from, linked, path, call);
+  };
+  options.read_linked = [&](std::string_view linked) {
+    return in.file_access().read_regular(std::string(linked));
   };
   const FreecadModel model = read_file(*bytes, options, call);
   // Whatever names objects, types and entries have.

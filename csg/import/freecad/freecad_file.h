@@ -27,12 +27,6 @@
 
 namespace lamina::csg {
 
-// A file that another links to.
-struct LinkedFreecadFile {
-  std::string_view path;  // one for each file; must live as long as the nodes
-  std::string bytes;
-};
-
 struct FreecadOptions {
   std::string_view path;  // of the file; must live as long as the nodes
   // One object, by name or label, in the frame of what holds it. Not given:
@@ -48,11 +42,13 @@ struct FreecadOptions {
   // name in the file at `path`.
   std::function<std::string(std::string_view path, std::string_view name)>
       boundary_text;
-  // Opens `file`, which the file at `from` links to. Nothing where there is no
-  // such file; a missing function opens none.
-  std::function<std::optional<LinkedFreecadFile>(std::string_view from,
-                                                 std::string_view file)>
-      open_linked = {};
+  // The path of `file`, which the file at `from` links to: one for each file;
+  // it must live as long as the nodes.
+  std::function<std::string_view(std::string_view from, std::string_view file)>
+      find_linked = {};
+  // The bytes of the file at such a path; nothing where there is none.
+  std::function<std::optional<std::string>(std::string_view path)> read_linked =
+      {};
 };
 
 struct FreecadModel {

@@ -192,14 +192,6 @@ std::set<LoopPair> meeting_pairs(const std::vector<Polyline>& contours) {
   return pairs;
 }
 
-double perimeter(const Polyline& contour) {
-  double length = 0;
-  for (std::size_t i = 0; i < contour.size(); ++i) {
-    length += glm::length(contour[(i + 1) % contour.size()] - contour[i]);
-  }
-  return length;
-}
-
 // --- Outlines ---------------------------------------------------------------
 
 // Construction geometry helps to draw and is not part of the sketch.

@@ -82,9 +82,9 @@ ImportState::ImportState(const FreecadOptions& asked, Arena& arena)
       maker(arena, {asked.range, asked.caller}, asked.chordal_error,
             asked.most_leaves) {}
 
-Reader::Reader(std::string bytes, std::string_view path, ImportState& state)
-    : bytes_(std::move(bytes)),
-      document_(bytes_),
+Reader::Reader(std::string_view bytes, std::string_view path,
+               ImportState& state)
+    : document_(bytes),
       path_(path),
       state_(state),
       maker_(state.maker),
@@ -513,28 +513,31 @@ Reader::Made Reader::make_target(const ObjectLink& link, bool keeps_place,
               : fmt::format("'{}' has no object '{}'", link.file, link.object);
     return std::nullopt;
   }
-  if (!link.path.empty()) {
-    const Mat4 frame = keeps_place ? target->placement() : Mat4(1);
-    return reader->make_on_path(*target, link.path, frame, why);
-  }
-  const Made solid = reader->make(*target);
+  // Where the link keeps no place, that of its target is undone; on the way to
+  // a part of the target it just does not count.
+  const bool is_whole = link.path.empty();
+  Mat4 frame(1);
+  if (is_whole && !keeps_place) frame = glm::inverse(target->placement());
+  if (!is_whole && keeps_place) frame = target->placement();
+  const Object* const object =
+      is_whole ? target : reader->follow(*target, link.path, frame, why);
+  if (object == nullptr) return std::nullopt;
+  const Made solid = reader->make(*object);
   if (!solid) {
-    why = fmt::format("{} is no solid", shown(*target));
+    why = fmt::format("{} is no solid", shown(*object));
     return std::nullopt;
   }
-  return keeps_place ? solid
-                     : maker_.place(glm::inverse(target->placement()), *solid);
+  return maker_.place(frame, *solid);
 }
 
-Reader::Made Reader::make_on_path(const Object& first, std::string_view path,
-                                  const Mat4& frame, std::string& why) {
-  Mat4 matrix = frame;
+const Object* Reader::follow(const Object& first, std::string_view path,
+                             Mat4& frame, std::string& why) const {
   const Object* object = &first;
   for (;;) {
     const std::size_t dot = path.find('.');
     if (dot == path.npos) {
       why = fmt::format("it links to {} of {}", path, shown(*object));
-      return std::nullopt;
+      return nullptr;
     }
     // A dollar sign says that a label follows.
     const std::string_view name = path.substr(0, dot);
@@ -545,41 +548,34 @@ Reader::Made Reader::make_on_path(const Object& first, std::string_view path,
     if (member == nullptr || std::find(members.begin(), members.end(),
                                        member->name()) == members.end()) {
       why = fmt::format("it links to '{}' of {}", name, shown(*object));
-      return std::nullopt;
+      return nullptr;
     }
     path.remove_prefix(dot + 1);
-    object = member;
-    if (path.empty()) break;
+    if (path.empty()) return member;
     if (!member->has_extension("App::GroupExtension")) {
-      matrix = matrix * member->placement();
+      frame = frame * member->placement();
     }
+    object = member;
   }
-  const Made solid = make(*object);
-  if (!solid) {
-    why = fmt::format("{} is no solid", shown(*object));
-    return std::nullopt;
-  }
-  return maker_.place(matrix, *solid);
 }
 
 Reader* Reader::reader_of(std::string_view file) {
   if (file.empty()) return this;
-  const auto [found, is_new] = linked_.try_emplace(file);
-  if (!is_new) return found->second;
-  const auto& open = state_.options.open_linked;
-  auto linked = open ? open(path_, file) : std::nullopt;
-  if (!linked) return nullptr;
-  std::unique_ptr<Reader>& reader = state_.readers[linked->path];
-  if (reader == nullptr) {
-    try {
-      reader = std::make_unique<Reader>(std::move(linked->bytes), linked->path,
-                                        state_);
-    } catch (const FormatError& fault) {
-      throw FormatError(
-          fmt::format("{}, in '{}', which a link names", fault.what(), file));
-    }
+  const FreecadOptions& options = state_.options;
+  if (!options.find_linked) return nullptr;
+  const std::string_view path = options.find_linked(path_, file);
+  const auto [found, is_new] = state_.readers.try_emplace(path);
+  if (!is_new) return found->second.get();
+  auto bytes = options.read_linked(path);
+  if (!bytes) return nullptr;
+  const std::string& kept = state_.linked_bytes.emplace_back(*std::move(bytes));
+  try {
+    found->second = std::make_unique<Reader>(kept, path, state_);
+  } catch (const FormatError& fault) {
+    throw FormatError(
+        fmt::format("{}, in '{}', which a link names", fault.what(), file));
   }
-  return found->second = reader.get();
+  return found->second.get();
 }
 
 // Elements are objects of their own, or stand in lists of the array.
@@ -615,15 +611,14 @@ std::vector<FreecadPart> freecad_parts(std::string_view bytes) {
   Arena arena;
   const FreecadOptions options;
   freecad::ImportState state(options, arena);
-  return freecad::Reader(std::string(bytes), {}, state).parts();
+  return freecad::Reader(bytes, {}, state).parts();
 }
 
 FreecadModel read_freecad(std::string_view bytes, const FreecadOptions& options,
                           Arena& arena) {
   freecad::ImportState state(options, arena);
   auto& reader = state.readers[options.path];
-  reader = std::make_unique<freecad::Reader>(std::string(bytes), options.path,
-                                             state);
+  reader = std::make_unique<freecad::Reader>(bytes, options.path, state);
   reader->read();
   return std::move(state.model);
 }

@@ -8,6 +8,7 @@
 // document and a reader of its own, and all readers of an import share a state.
 
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -36,13 +37,15 @@ struct ImportState {
   std::size_t corners = 0;  // cut for outlines, also for none
   // What is being made, each for the one before it.
   std::vector<const Object*> open;
-  std::map<std::string_view, std::unique_ptr<Reader>> readers;  // by path
+  // By path; null where there is no such file.
+  std::map<std::string_view, std::unique_ptr<Reader>> readers;
+  std::deque<std::string> linked_bytes;  // of the files that links name
 };
 
 class Reader {
  public:
-  // bytes, path  of the file
-  Reader(std::string bytes, std::string_view path, ImportState& state);
+  // bytes, path  of the file; both must live as long as the reader
+  Reader(std::string_view bytes, std::string_view path, ImportState& state);
 
   // Makes what the file shows, or the part that the options name.
   void read();
@@ -96,10 +99,10 @@ class Reader {
   //
   // keeps_place  whether the target's own placement counts
   Made make_target(const ObjectLink& link, bool keeps_place, std::string& why);
-  // Makes the object at the end of the link's path, placed by all on the way
-  // but the first; that one counts with `frame`.
-  Made make_on_path(const Object& first, std::string_view path,
-                    const Mat4& frame, std::string& why);
+  // The object at the end of a link's path; null where there is none. Those on
+  // the way to it, but the first, place it by `frame`.
+  const Object* follow(const Object& first, std::string_view path, Mat4& frame,
+                       std::string& why) const;
   // The reader of the file, which may be this one; null where there is no such
   // file.
   Reader* reader_of(std::string_view file);
@@ -155,13 +158,11 @@ class Reader {
     std::string why;  // there is none
   };
 
-  std::string bytes_;
   Document document_;
   std::string_view path_;
   ImportState& state_;
   SolidMaker& maker_;
   FreecadModel& model_;
-  std::map<std::string_view, Reader*> linked_;  // by the name that links have
   std::map<const Object*, Entry> entries_;
   // By the chordal error, too.
   std::map<std::pair<const Object*, double>, OutlineEntry> outlines_;

@@ -307,12 +307,11 @@ TEST(FreecadFile, FollowsLinksIntoOtherFilesAndBack) {
   std::vector<std::string> opened;
   FreecadOptions options;
   options.path = "a.FCStd";
-  options.open_linked = [&](std::string_view from, std::string_view file) {
+  options.find_linked = [&](std::string_view from, std::string_view file) {
     opened.push_back(fmt::format("{} from {}", file, from));
-    const bool is_first = file == "a.FCStd";
-    return LinkedFreecadFile{is_first ? "a.FCStd" : "b.FCStd",
-                             (is_first ? first : second).bytes()};
+    return file;
   };
+  options.read_linked = [&](std::string_view) { return second.bytes(); };
   EXPECT_EQ(read(first.bytes(), options).csg,
             kBox +
                 "multmatrix([[1, 0, 0, 50], [0, 1, 0, 0], [0, 0, 1, 0], "
@@ -327,9 +326,10 @@ TEST(FreecadFile, RejectsFilesThatAreMadeOfOneAnother) {
   file.add("App::Link", "L", linked_object("file=\"b\" name=\"L\""));
   FreecadOptions options;
   options.path = "a";
-  options.open_linked = [&](std::string_view from, std::string_view) {
-    return LinkedFreecadFile{from == "a" ? "b" : "a", file.bytes()};
+  options.find_linked = [&](std::string_view from, std::string_view) {
+    return std::string_view(from == "a" ? "b" : "a");
   };
+  options.read_linked = [&](std::string_view) { return file.bytes(); };
   EXPECT_EQ(fault_of([&] { read(file.bytes(), options); }),
             "FCStd, 'L' (App::Link) is made from itself");
 }
@@ -338,9 +338,10 @@ TEST(FreecadFile, NamesTheLinkedFileThatIsBroken) {
   FreecadDocument file;
   file.add("App::Link", "L", linked_object("file=\"b.FCStd\" name=\"L\""));
   FreecadOptions options;
-  options.open_linked = [&](std::string_view, std::string_view) {
-    return LinkedFreecadFile{"b", "junk"};
+  options.find_linked = [](std::string_view, std::string_view linked) {
+    return linked;
   };
+  options.read_linked = [](std::string_view) { return "junk"; };
   EXPECT_EQ(fault_of([&] { read(file.bytes(), options); }),
             "FCStd, expected a ZIP archive, in 'b.FCStd', which a link names");
 }
