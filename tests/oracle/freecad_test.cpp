@@ -19,8 +19,8 @@
 
 #include "base/arena.h"
 #include "csg/import/freecad/freecad_file.h"
-#include "plane/loop_area.h"
 #include "tests/oracle/judge.h"
+#include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -129,9 +129,7 @@ double volume_of(const fs::path& file) {
   settings.layer_thickness = 0.1;
   double volume = 0;
   for (const auto& layer : support::slice_layers(design.scene(), settings)) {
-    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
-      volume += signed_area(layer.contours.loop(i)) * settings.layer_thickness;
-    }
+    volume += support::total_area(layer.contours) * settings.layer_thickness;
   }
   return volume;
 }

@@ -25,6 +25,7 @@
 #include <sys/resource.h>
 
 #include "base/file/format_error.h"
+#include "tests/support/mesh_winding.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina::cad {
@@ -347,23 +348,6 @@ std::string step_of_shells(const std::vector<Box>& boxes) {
                   lines));
 }
 
-// How often a mesh goes round a point.
-int winding(const csg::Mesh& mesh, Vec3 p) {
-  double angle = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]] - p;
-    const Vec3 b = mesh.vertices[t[1]] - p;
-    const Vec3 c = mesh.vertices[t[2]] - p;
-    const double la = glm::length(a);
-    const double lb = glm::length(b);
-    const double lc = glm::length(c);
-    angle += 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                            la * lb * lc + glm::dot(a, b) * lc +
-                                glm::dot(b, c) * la + glm::dot(c, a) * lb);
-  }
-  return static_cast<int>(std::lround(angle / (4 * std::numbers::pi)));
-}
-
 // What bodies fill of a cube of 12 mm: so many mm³.
 int filled_by(const std::vector<Body>& bodies) {
   constexpr int kSize = 12;
@@ -371,9 +355,10 @@ int filled_by(const std::vector<Body>& bodies) {
   for (int i = 0; i < kSize * kSize * kSize; ++i) {
     const Vec3 p(i % kSize + 0.5, i / kSize % kSize + 0.5,
                  i / kSize / kSize + 0.5);
-    const bool is_filled = std::any_of(
-        bodies.begin(), bodies.end(),
-        [&](const Body& body) { return winding(body.mesh, p) != 0; });
+    const bool is_filled =
+        std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+          return std::lround(support::winding_number(body.mesh, p)) != 0;
+        });
     if (is_filled) ++count;
   }
   return count;

@@ -19,6 +19,7 @@
 
 #include "csg/boundary/leaf_mesh.h"
 #include "csg/mesh/edge_table.h"
+#include "tests/support/mesh_winding.h"
 
 namespace lamina::csg {
 namespace {
@@ -74,23 +75,6 @@ JoinedFaces faces_of(const Mesh& mesh) {
   return {mesh.vertices, std::move(loops), normals};
 }
 
-// By the solid angles of the triangles (Van Oosterom and Strackee 1983).
-double winding_number(const Mesh& mesh, const Vec3& p) {
-  double angles = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]] - p;
-    const Vec3 b = mesh.vertices[t[1]] - p;
-    const Vec3 c = mesh.vertices[t[2]] - p;
-    const double la = glm::length(a);
-    const double lb = glm::length(b);
-    const double lc = glm::length(c);
-    angles += 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                             la * lb * lc + glm::dot(a, b) * lc +
-                                 glm::dot(b, c) * la + glm::dot(c, a) * lb);
-  }
-  return angles / (4 * pi);
-}
-
 bool crosses(const Vec3& from, const Vec3& to, std::span<const Vec3> t) {
   const auto side = [](const Vec3& a, const Vec3& b, const Vec3& c,
                        const Vec3& d) {
@@ -144,7 +128,7 @@ Tally expect_definition(const Mesh& a, const Mesh& b, int points,
   Tally tally;
   for (int i = 0; i < points; ++i) {
     const Vec3 p(place(random), place(random), place(random));
-    const double winding = winding_number(sum, p + shift);
+    const double winding = support::winding_number(sum, p + shift);
     EXPECT_NEAR(winding, std::round(winding), 1e-6);
     const bool is_inside = is_sum(a, b, p);
     EXPECT_EQ(is_inside, std::round(winding) > 0) << winding;
