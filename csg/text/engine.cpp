@@ -2,8 +2,13 @@
 
 #include "csg/text/detail/engine.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <exception>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "csg/text/detail/font_cache.h"
 #include "csg/text/detail/glyph_row.h"
@@ -11,6 +16,31 @@
 
 namespace lamina::text {
 namespace {
+
+std::vector<hb_codepoint_t> codes_of(const std::vector<Letter>& letters) {
+  std::vector<hb_codepoint_t> codes;
+  for (const Letter& letter : letters) {
+    if (letter.code >= ' ') codes.push_back(letter.code);
+  }
+  return codes;
+}
+
+// "'愛' (U+611B), U+000A"
+std::string list_of(const std::vector<Letter>& letters) {
+  constexpr std::size_t kMost = 4;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(letters.size(), kMost); ++i) {
+    const Letter& letter = letters[i];
+    const std::string code = fmt::format("U+{:04X}", letter.code);
+    if (i > 0) list += ", ";
+    list +=
+        letter.code < ' ' ? code : fmt::format("'{}' ({})", letter.bytes, code);
+  }
+  if (letters.size() > kMost) {
+    list += fmt::format(" and {} more", letters.size() - kMost);
+  }
+  return list;
+}
 
 class FontEngine : public Engine {
  public:
@@ -74,12 +104,31 @@ class FontEngine : public Engine {
 
   void draw(const csg::TextParams& params, const Font& font) {
     const GlyphRow row = shape(params, font, messages_);
+    if (!row.missing.empty()) warn_of_missing(row, font);
     Vec2 place = align(params, row, messages_);
     for (const Glyph& glyph : row.glyphs) {
       auto& outline = reinterpret_cast<FT_OutlineGlyphRec_&>(*glyph.outline);
       pen_.draw(outline.outline, place + glyph.shift);
       place += glyph.advance;
     }
+  }
+
+  // OpenSCAD says nothing of them.
+  void warn_of_missing(const GlyphRow& row, const Font& font) {
+    const std::string all = fonts_.family_with(codes_of(row.letters));
+    const std::string some =
+        all.empty() ? fonts_.family_with(codes_of(row.missing)) : "";
+    const char* const own = font.face->outlines->family_name;
+    messages_.push_back(
+        {Severity::kWarning,
+         fmt::format(
+             "Font '{}' cannot draw {}, and leaves a box or a gap; {}",
+             own == nullptr ? "" : own, list_of(row.missing),
+             !all.empty() ? fmt::format("font \"{}\" can", all)
+             : !some.empty()
+                 ? fmt::format("font \"{}\" can, but not the rest", some)
+                 : "no font here can"),
+         Audience::kTerminal});
   }
 
   FontCache fonts_;

@@ -318,6 +318,40 @@ Owned<FcPattern> FontCache::match(FcPattern& pattern) const {
   return found;
 }
 
+std::string FontCache::family_with(
+    const std::vector<hb_codepoint_t>& letters) const {
+  errno = 0;
+  const Owned<FcCharSet> wanted(FcCharSetCreate());
+  require(wanted != nullptr);
+  for (const hb_codepoint_t letter : letters) {
+    require(FcCharSetAddChar(wanted.get(), letter));
+  }
+  const Owned<FcPattern> pattern(FcPatternCreate());
+  require(pattern != nullptr &&
+          FcPatternAddCharSet(pattern.get(), FC_CHARSET, wanted.get()) &&
+          FcPatternAddBool(pattern.get(), FC_OUTLINE, FcTrue) &&
+          FcPatternAddBool(pattern.get(), FC_SCALABLE, FcTrue) &&
+          FcPatternAddBool(pattern.get(), FC_COLOR, FcFalse) &&
+          FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern));
+  FcDefaultSubstitute(pattern.get());
+  const Owned<FcPattern> matching = match(*pattern);
+  FcCharSet* has = nullptr;
+  FcBool is_picture = FcFalse;
+  FcChar8* family = nullptr;
+  if (!matching ||
+      FcPatternGetCharSet(matching.get(), FC_CHARSET, 0, &has) !=
+          FcResultMatch ||
+      !FcCharSetIsSubset(wanted.get(), has) ||
+      (FcPatternGetBool(matching.get(), FC_COLOR, 0, &is_picture) ==
+           FcResultMatch &&
+       is_picture) ||
+      FcPatternGetString(matching.get(), FC_FAMILY, 0, &family) !=
+          FcResultMatch) {
+    return "";
+  }
+  return from_fc(family);
+}
+
 // Null where the bytes, which must outlive it, hold no such face.
 Owned<FT_FaceRec> FontCache::open_face(const std::string& bytes,
                                        long index) const {

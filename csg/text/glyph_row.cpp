@@ -1,10 +1,15 @@
 #include "csg/text/detail/glyph_row.h"
 
+#include <cstdint>
+#include <iterator>
 #include <new>
+#include <set>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "base/utf8.h"
 
 namespace lamina::text {
 namespace {
@@ -39,7 +44,21 @@ std::string to_c(std::string_view text) {
   return std::string(text.substr(0, text.find('\0')));
 }
 
+// The letters of a text as they stand in a buffer that is not yet shaped.
+std::vector<Letter> letters_of(hb_buffer_t* buffer, std::string_view text) {
+  unsigned count = 0;
+  const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer, &count);
+  std::vector<Letter> letters;
+  for (unsigned i = 0; i < count; ++i) {
+    const std::uint32_t at = infos[i].cluster;
+    letters.push_back({infos[i].codepoint, at,
+                       std::string(text.substr(at, utf8_length(text[at])))});
+  }
+  return letters;
+}
+
 Owned<hb_buffer_t> shape_text(const csg::TextParams& params, const Font& font,
+                              std::vector<Letter>& letters,
                               std::vector<Message>& messages) {
   const std::string text = to_c(params.text);
   Owned<hb_buffer_t> owned(hb_buffer_create());
@@ -51,6 +70,7 @@ Owned<hb_buffer_t> shape_text(const csg::TextParams& params, const Font& font,
   hb_buffer_set_language(
       buffer, hb_language_from_string(to_c(params.language).c_str(), -1));
   hb_buffer_add_utf8(buffer, text.c_str(), -1, 0, -1);
+  letters = letters_of(buffer, text);
   if (font.face->is_symbol) move_to_symbol_page(buffer, text, messages);
   if (!hb_shape_full(font.face->shaper.get(), buffer, font.features.data(),
                      static_cast<unsigned>(font.features.size()), nullptr) ||
@@ -72,6 +92,46 @@ OwnedGlyph load_glyph(const Font& font, FT_UInt index) {
   return glyph->format == FT_GLYPH_FORMAT_OUTLINE ? std::move(owned) : nullptr;
 }
 
+// Variation selectors and the like say how others look.
+bool is_drawn(hb_codepoint_t character) {
+  constexpr hb_codepoint_t kFirstSelector = 0xFE00;
+  constexpr hb_codepoint_t kLastSelector = 0xFE0F;
+  return hb_unicode_general_category(hb_unicode_funcs_get_default(),
+                                     character) !=
+             HB_UNICODE_GENERAL_CATEGORY_FORMAT &&
+         !(kFirstSelector <= character && character <= kLastSelector);
+}
+
+bool can_draw(const Font& font, hb_codepoint_t character) {
+  const bool is_moved = font.face->is_symbol && character < kPageSize;
+  hb_codepoint_t glyph = 0;
+  return hb_font_get_nominal_glyph(
+             font.face->shaper.get(),
+             is_moved ? character + kSymbolPage : character, &glyph) &&
+         load_glyph(font, glyph);
+}
+
+// Letters that the font cannot draw, each once.
+//
+// clusters  where the letters of a glyph begin, for all glyphs
+// torn      where they begin for glyphs that say nothing of their letters
+std::vector<Letter> missing_letters(const std::vector<Letter>& letters,
+                                    const std::set<std::uint32_t>& clusters,
+                                    const std::set<std::uint32_t>& torn,
+                                    const Font& font) {
+  std::vector<Letter> missing;
+  std::set<hb_codepoint_t> seen;
+  for (const Letter& letter : letters) {
+    const auto next = clusters.upper_bound(letter.at);
+    if (next == clusters.begin() || !torn.contains(*std::prev(next))) continue;
+    if (seen.insert(letter.code).second && is_drawn(letter.code) &&
+        !can_draw(font, letter.code)) {
+      missing.push_back(letter);
+    }
+  }
+  return missing;
+}
+
 // From the whole numbers of FreeType and HarfBuzz.
 Vec2 to_vec(double x, double y) { return Vec2(x, y) / double{Face::kSize}; }
 
@@ -86,18 +146,25 @@ Box box_of(FT_Glyph glyph) {
 
 GlyphRow shape(const csg::TextParams& params, const Font& font,
                std::vector<Message>& messages) {
-  const Owned<hb_buffer_t> buffer = shape_text(params, font, messages);
+  GlyphRow row;
+  const Owned<hb_buffer_t> buffer =
+      shape_text(params, font, row.letters, messages);
   unsigned count = 0;
   const hb_glyph_info_t* infos =
       hb_buffer_get_glyph_infos(buffer.get(), &count);
   const hb_glyph_position_t* places =
       hb_buffer_get_glyph_positions(buffer.get(), &count);
-  GlyphRow row;
   row.is_horizontal =
       HB_DIRECTION_IS_HORIZONTAL(hb_buffer_get_direction(buffer.get()));
+  std::set<std::uint32_t> clusters;
+  std::set<std::uint32_t> torn;
   for (unsigned i = 0; i < count; ++i) {
     Glyph glyph;
     glyph.outline = load_glyph(font, infos[i].codepoint);
+    clusters.insert(infos[i].cluster);
+    if (infos[i].codepoint == 0 || !glyph.outline) {
+      torn.insert(infos[i].cluster);
+    }
     if (!glyph.outline) {
       messages.push_back(
           {Severity::kPlain,
@@ -113,6 +180,8 @@ GlyphRow shape(const csg::TextParams& params, const Font& font,
                     to_vec(places[i].x_advance, places[i].y_advance);
     row.glyphs.push_back(std::move(glyph));
   }
+  if (!torn.empty())
+    row.missing = missing_letters(row.letters, clusters, torn, font);
   return row;
 }
 

@@ -147,6 +147,7 @@ std::vector<std::vector<Vec2>> Typesetter::outline(
   const Typeset& typeset = checked(engine().set(params, chords));
   for (const Message& message : typeset.messages) {
     Diagnostic said{message.severity, range, message.words};
+    said.audience = message.audience;
     if (!typeset.has_font && readable_fonts_->is_confined()) {
       said.hints = hint_of(
           "the system's fonts may not be read: try --allow-read "

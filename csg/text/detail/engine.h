@@ -20,6 +20,7 @@ namespace lamina::text {
 struct Message {
   Severity severity;
   std::string words;
+  Audience audience = Audience::kAll;
 };
 
 // What a text gave: its polygons, or its measures.
@@ -69,7 +70,7 @@ class Engine {
 };
 
 // Grows with every change above.
-constexpr int kEngineVersion = 5;
+constexpr int kEngineVersion = 6;
 
 // The module's function: a new engine; null if it has another version, or
 // there is no memory (errno is ENOMEM then).

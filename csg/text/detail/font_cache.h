@@ -34,6 +34,7 @@ namespace lamina::text {
 struct Release {
   void operator()(FcFontSet* set) const { FcFontSetDestroy(set); }
   void operator()(FcConfig* config) const { FcConfigDestroy(config); }
+  void operator()(FcCharSet* letters) const { FcCharSetDestroy(letters); }
   void operator()(FcPattern* pattern) const { FcPatternDestroy(pattern); }
   void operator()(FT_Library library) const { FT_Done_FreeType(library); }
   void operator()(FT_Face face) const { FT_Done_Face(face); }
@@ -80,6 +81,9 @@ class FontCache {
 
   // The best match for a Fontconfig name ("Liberation Sans:style=Bold").
   const Font& find(const std::string& name);
+
+  // The family of a font that has outlines of all these letters; "": none does.
+  std::string family_with(const std::vector<hb_codepoint_t>& letters) const;
 
  private:
   explicit FontCache(const FontFiles& files) : files_(files) {}

@@ -2,6 +2,8 @@
 // A text as a row of glyphs: shaped by HarfBuzz, loaded by FreeType; where the
 // row stands, and how large it is.
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/vec.h"
@@ -19,6 +21,12 @@ struct Box {
 
 using OwnedGlyph = Owned<FT_GlyphRec_>;
 
+struct Letter {
+  hb_codepoint_t code = 0;
+  std::uint32_t at = 0;  // in the bytes of the text
+  std::string bytes;
+};
+
 // Lengths are in units of text(size = 1).
 struct Glyph {
   OwnedGlyph outline;
@@ -29,6 +37,8 @@ struct Glyph {
 
 struct GlyphRow {
   std::vector<Glyph> glyphs;
+  std::vector<Letter> letters;  // of the text
+  std::vector<Letter> missing;  // those that the font cannot draw, each once
   bool is_horizontal = true;
 };
 

@@ -5,14 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <ft2build.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <sys/resource.h>
+#include FT_FREETYPE_H
 
+#include "base/utf8.h"
 #include "plane/loop_area.h"
 #include "plane/region/boolean.h"
 #include "plane/region/region.h"
@@ -255,6 +261,107 @@ TEST_F(TypesetterTest, BytesThatAreNoUtf8DoNoHarm) {
   EXPECT_FALSE(set("A\xff\xc3").empty());
 }
 
+// --- Letters that a font lacks ----------------------------------------------
+
+// As FreeType reads the file's own table of characters.
+class CharacterTable {
+ public:
+  explicit CharacterTable(const std::string& file) {
+    FT_Init_FreeType(&library_);
+    FT_New_Face(library_, file.c_str(), 0, &face_);
+  }
+  ~CharacterTable() {
+    FT_Done_Face(face_);
+    FT_Done_FreeType(library_);
+  }
+  CharacterTable(const CharacterTable&) = delete;
+  CharacterTable& operator=(const CharacterTable&) = delete;
+
+  bool has(unsigned letter) const {
+    return FT_Get_Char_Index(face_, letter) != 0;
+  }
+
+ private:
+  FT_Library library_ = nullptr;
+  FT_Face face_ = nullptr;
+};
+
+// Letters of many scripts, none of which others make up.
+std::vector<unsigned> some_letters() {
+  std::vector<unsigned> letters;
+  std::mt19937 random(1);
+  for (const auto& [first, last] : {std::pair(0x41U, 0x5AU),
+                                    {0x391U, 0x3A1U},
+                                    {0x410U, 0x42FU},
+                                    {0x5D0U, 0x5EAU},
+                                    {0x627U, 0x64AU},
+                                    {0x10D0U, 0x10F0U},
+                                    {0x16A0U, 0x16EAU},
+                                    {0x2654U, 0x265FU},
+                                    {0x4E00U, 0x9FA0U},
+                                    {0x1F400U, 0x1F4FFU}}) {
+    for (int i = 0; i < 15; ++i) {
+      letters.push_back(std::uniform_int_distribution(first, last)(random));
+    }
+  }
+  return letters;
+}
+
+TEST_F(TypesetterTest, LettersThatAFontLacksAreNamedWithAFontThatHasThem) {
+  const CharacterTable table(kLiberation);
+  int lacking = 0;
+  int told = 0;
+  for (const unsigned letter : some_letters()) {
+    std::string text = "a";
+    ASSERT_TRUE(append_utf8(letter, text));
+    Diagnostics diagnostics;
+    const auto said = [&](const std::string& font) {
+      csg::TextParams params = params_of(text);
+      params.font = font;
+      const std::size_t before = diagnostics.all().size();
+      typesetter_.outline(params, {4}, {}, diagnostics);
+      return diagnostics.all().size() == before
+                 ? std::string()
+                 : diagnostics.all().back().message;
+    };
+    const std::string words = said("Liberation Sans");
+    EXPECT_EQ(words.empty(), table.has(letter)) << words;
+    if (words.empty()) continue;
+    ++lacking;
+    EXPECT_TRUE(words.starts_with(
+        fmt::format("Font 'Liberation Sans' cannot draw '{}' (U+{:04X}), and "
+                    "leaves a box or a gap; ",
+                    text.substr(1), letter)))
+        << words;
+    const std::size_t begin = words.find('"');
+    if (begin == std::string::npos) continue;
+    ++told;
+    const std::string font =
+        words.substr(begin + 1, words.find('"', begin + 1) - begin - 1);
+    if (words.ends_with(" can, but not the rest")) text.erase(0, 1);
+    EXPECT_EQ(said(font), "") << words;
+  }
+  EXPECT_GT(lacking, 50);
+  EXPECT_GT(told, 20);
+}
+
+TEST_F(TypesetterTest, LettersThatAFontLacksAreListed) {
+  set("\u611b\u60c5 \u611b\n");
+  ASSERT_EQ(messages().size(), 1U);
+  EXPECT_TRUE(messages()[0].starts_with(
+      "Font 'Liberation Sans' cannot draw '\u611b' (U+611B), '\u60c5' "
+      "(U+60C5), U+000A, and leaves"))
+      << messages()[0];
+  EXPECT_EQ(diagnostics_.all()[0].severity, Severity::kWarning);
+  EXPECT_EQ(diagnostics_.all()[0].audience, Audience::kTerminal);
+}
+
+// A joiner, a variation selector and marks draw nothing of their own.
+TEST_F(TypesetterTest, WhatShapesOtherLettersIsNotMissing) {
+  set("a\u200db\ufe0fc\u0301 e\u0301\u00ad");
+  EXPECT_EQ(messages(), std::vector<std::string>());
+}
+
 // --- Metrics ----------------------------------------------------------------
 
 TEST_F(TypesetterTest, TheBoxOfALetterIsThatOfItsOutline) {
@@ -467,7 +574,8 @@ TEST_F(TypesetterTest, GlyphsThatAreNoiseAreLeftOutAndNamed) {
     const Contours contours = typesetter.outline(params, {4}, {}, diagnostics);
     EXPECT_EQ(contours.size() < whole_count, !diagnostics.all().empty()) << at;
     for (const Diagnostic& message : diagnostics.all()) {
-      EXPECT_TRUE(message.message.starts_with("Could not load glyph "))
+      EXPECT_TRUE(message.message.starts_with("Could not load glyph ") ||
+                  message.message.starts_with("Font 'Ziberation Sans' cannot"))
           << message.message;
     }
     left_out += diagnostics.all().size();
