@@ -14,7 +14,9 @@
 #include <Precision.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <ShapeFix_Solid.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
@@ -35,11 +37,10 @@ Shapes parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum what,
   return parts;
 }
 
+bool is_closed(const TopoDS_Shape& shell) { return BRep_Tool::IsClosed(shell); }
+
 bool has_open_shell(const TopoDS_Shape& shape) {
-  const Shapes shells = parts_of(shape, TopAbs_SHELL);
-  return !std::all_of(shells.begin(), shells.end(), [](const auto& shell) {
-    return BRep_Tool::IsClosed(shell);
-  });
+  return !std::ranges::all_of(parts_of(shape, TopAbs_SHELL), is_closed);
 }
 
 // --- Faces to shells ---------------------------------------------------------
@@ -100,19 +101,23 @@ bool look_alike(const Filled& a, const Filled& b) {
 }
 
 // Whether nothing of the inner one is outside, nor is it a copy. A vertex
-// outside says no at once; else what crosses has all vertices inside, too, so
-// OpenCASCADE cuts.
+// outside says no at once, also where OpenCASCADE fails to cut because edges
+// lie in each other; else what crosses has all vertices inside, too, so it
+// cuts.
 bool contains(const Filled& outer, const Filled& inner) {
   constexpr double kLeastShare = 1e-6;  // of a volume: exactness of Mass()
   if (std::abs(inner.volume) > (1 - kLeastShare) * std::abs(outer.volume)) {
     return false;
   }
-  const Shapes vertices = parts_of(inner.shell, TopAbs_VERTEX);
-  if (vertices.empty()) return false;
-  const BRepClass3d_SolidClassifier classifier(
-      outer.solid, BRep_Tool::Pnt(TopoDS::Vertex(vertices.front())),
-      Precision::Confusion());
-  if (classifier.State() == TopAbs_OUT) return false;
+  BRepClass3d_SolidClassifier classifier(outer.solid);
+  TopTools_IndexedMapOfShape vertices;
+  TopExp::MapShapes(inner.shell, TopAbs_VERTEX, vertices);
+  if (vertices.IsEmpty()) return false;
+  for (int i = 1; i <= vertices.Extent(); ++i) {
+    classifier.Perform(BRep_Tool::Pnt(TopoDS::Vertex(vertices(i))),
+                       Precision::Confusion());
+    if (classifier.State() == TopAbs_OUT) return false;
+  }
   BRepAlgoAPI_Cut outside(inner.solid, outer.solid);
   return !outside.HasErrors() &&
          parts_of(outside.Shape(), TopAbs_SOLID).empty();
@@ -155,15 +160,37 @@ void add_solids(std::vector<Filled>& all, const std::string& name,
   }
 }
 
-void add_sewn(const Shapes& faces, const std::string& name,
-              double chordal_error, std::vector<Solid>& solids,
-              std::vector<std::string>& warnings) {
-  if (faces.empty()) return;
+// The shells of a file that close by themselves, and what the faces of all
+// others are sewn to. Sewn together, two closed ones that share a part of an
+// edge would be torn.
+//
+// outside  shells of such shapes do not count
+Shapes sewn_shells(const TopoDS_Shape& shape, TopAbs_ShapeEnum outside,
+                   double chordal_error) {
+  Shapes shells;
+  Shapes faces = parts_of(shape, TopAbs_FACE, TopAbs_SHELL);
+  for (const TopoDS_Shape& shell : parts_of(shape, TopAbs_SHELL, outside)) {
+    const Shapes own = parts_of(shell, TopAbs_FACE);
+    const Shapes joined = shells_of(sew(own, chordal_error));
+    if (std::ranges::all_of(joined, is_closed)) {
+      shells.insert(shells.end(), joined.begin(), joined.end());
+    } else {
+      faces.insert(faces.end(), own.begin(), own.end());
+    }
+  }
+  if (faces.empty()) return shells;
+  for (const TopoDS_Shape& shell : shells_of(sew(faces, chordal_error))) {
+    shells.push_back(shell);
+  }
+  return shells;
+}
+
+void add_sewn(const Shapes& shells, const std::string& name,
+              std::vector<Solid>& solids, std::vector<std::string>& warnings) {
   std::vector<Filled> filled;
   std::size_t open = 0;
-  const Shapes shells = shells_of(sew(faces, chordal_error));
   for (const TopoDS_Shape& shell : shells) {
-    if (BRep_Tool::IsClosed(shell)) {
+    if (is_closed(shell)) {
       filled.push_back(fill(shell));
     } else {
       ++open;
@@ -198,14 +225,14 @@ std::vector<Solid> find_solids(const ShapeFile& file, double chordal_error,
     const std::string name = name_of(found, file);
     const TopoDS_Shape solid = has_open_shell(found) ? healed(found) : found;
     if (has_open_shell(solid)) {
-      add_sewn(parts_of(solid, TopAbs_FACE), name, chordal_error, solids,
+      add_sewn(sewn_shells(solid, TopAbs_SHAPE, chordal_error), name, solids,
                part.warnings);
     } else {
       solids.push_back({solid, name});
     }
   }
-  add_sewn(parts_of(file.shape, TopAbs_FACE, TopAbs_SOLID), "", chordal_error,
-           solids, part.warnings);
+  add_sewn(sewn_shells(file.shape, TopAbs_SOLID, chordal_error), "", solids,
+           part.warnings);
   const Shapes wires = parts_of(file.shape, TopAbs_EDGE, TopAbs_FACE);
   if (!wires.empty()) {
     part.notes.push_back(

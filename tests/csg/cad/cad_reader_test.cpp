@@ -285,47 +285,73 @@ struct Box {
   }
 };
 
-// The lines of a shell, from #first on.
+// The lines of a shell, from #first on. A corner is a number of three bits, one
+// for each axis; an edge joins two that differ in one bit.
 std::string step_of(const Box& box, int first) {
   std::string lines;
-  std::string faces;
   int next = first + 1;
   const auto add = [&](const std::string& entity) {
     lines += fmt::format("#{} = {};\n", next, entity);
     return next++;
   };
+  const auto add_direction = [&](std::size_t axis, double length) {
+    std::array<double, 3> d{};
+    d[axis] = length;
+    return add(
+        fmt::format("DIRECTION('',({:.1f},{:.1f},{:.1f}))", d[0], d[1], d[2]));
+  };
+  std::array<int, 8> points{};
+  std::array<int, 8> vertices{};
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    std::array<int, 3> p{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = ((corner >> k & 1) != 0 ? box.high : box.low)[k];
+    }
+    points[corner] =
+        add(fmt::format("CARTESIAN_POINT('',({}.,{}.,{}.))", p[0], p[1], p[2]));
+    vertices[corner] = add(fmt::format("VERTEX_POINT('',#{})", points[corner]));
+  }
+  std::map<std::pair<std::size_t, std::size_t>, int> edges;
+  for (std::size_t from = 0; from < 8; ++from) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t to = from | std::size_t{1} << axis;
+      if (to == from) continue;
+      const int along =
+          add(fmt::format("VECTOR('',#{},1.)", add_direction(axis, 1)));
+      const int line =
+          add(fmt::format("LINE('',#{},#{})", points[from], along));
+      edges[{from, to}] = add(fmt::format("EDGE_CURVE('',#{},#{},#{},.T.)",
+                                          vertices[from], vertices[to], line));
+    }
+  }
+  std::string faces;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t u = (axis + 1) % 3;
-    const std::size_t v = (axis + 2) % 3;
+    const std::size_t u = std::size_t{1} << (axis + 1) % 3;
+    const std::size_t v = std::size_t{1} << (axis + 2) % 3;
     for (const bool is_high : {false, true}) {
-      std::array<double, 3> normal{};
-      normal[axis] = is_high != box.looks_inward ? 1 : -1;
-      std::array<double, 3> along{};
-      along[u] = 1;
-      std::vector<int> corners;
-      for (const auto& [is_u, is_v] :
-           {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
-        std::array<int, 3> p{};
-        p[axis] = (is_high ? box.high : box.low)[axis];
-        p[u] = (is_u == 1 ? box.high : box.low)[u];
-        p[v] = (is_v == 1 ? box.high : box.low)[v];
-        corners.push_back(add(fmt::format("CARTESIAN_POINT('',({}.,{}.,{}.))",
-                                          p[0], p[1], p[2])));
+      const std::size_t at = is_high ? std::size_t{1} << axis : 0;
+      const bool looks_up = is_high != box.looks_inward;
+      std::array<std::size_t, 4> corners = {at, at + u, at + u + v, at + v};
+      if (!looks_up) std::ranges::reverse(corners);
+      std::vector<int> sides;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t a = corners[k];
+        const std::size_t b = corners[(k + 1) % 4];
+        sides.push_back(add(fmt::format("ORIENTED_EDGE('',*,*,#{},.{}.)",
+                                        edges[{std::min(a, b), std::max(a, b)}],
+                                        a < b ? 'T' : 'F')));
       }
-      if (normal[axis] < 0) std::reverse(corners.begin(), corners.end());
-      const int z = add(fmt::format("DIRECTION('',({:.1f},{:.1f},{:.1f}))",
-                                    normal[0], normal[1], normal[2]));
-      const int x = add(fmt::format("DIRECTION('',({:.1f},{:.1f},{:.1f}))",
-                                    along[0], along[1], along[2]));
-      const int place = add(
-          fmt::format("AXIS2_PLACEMENT_3D('',#{},#{},#{})", corners[0], z, x));
+      const int z = add_direction(axis, looks_up ? 1 : -1);
+      const int x = add_direction((axis + 1) % 3, 1);
+      const int place = add(fmt::format("AXIS2_PLACEMENT_3D('',#{},#{},#{})",
+                                        points[corners[0]], z, x));
       const int plane = add(fmt::format("PLANE('',#{})", place));
       const int loop =
-          add(fmt::format("POLY_LOOP('',(#{}))", fmt::join(corners, ",#")));
+          add(fmt::format("EDGE_LOOP('',(#{}))", fmt::join(sides, ",#")));
       const int bound = add(fmt::format("FACE_OUTER_BOUND('',#{},.T.)", loop));
       faces += fmt::format(
           "{}#{}", faces.empty() ? "" : ",",
-          add(fmt::format("FACE_SURFACE('',(#{}),#{},.T.)", bound, plane)));
+          add(fmt::format("ADVANCED_FACE('',(#{}),#{},.T.)", bound, plane)));
     }
   }
   return fmt::format("#{} = CLOSED_SHELL('',({}));\n", first, faces) + lines;
@@ -346,6 +372,17 @@ std::string step_of_shells(const std::vector<Box>& boxes) {
       cylinder, step.find("#113 =") - cylinder,
       fmt::format("#900 = SHELL_BASED_SURFACE_MODEL('',({}));\n{}", shells,
                   lines));
+}
+
+TEST_F(CadReader, MakesThePartThatIsAskedFor) {
+  const std::string step =
+      step_of_shells({{{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {4, 1, 1}}});
+  Reader reader({LAMINA_MODULES}, diagnostics_);
+  EXPECT_EQ(reader.read(step, Format::kStep, {}).bodies.size(), 2U);
+  const Part part = reader.read(step, Format::kStep, {}, "2");
+  ASSERT_EQ(part.bodies.size(), 1U);
+  EXPECT_DOUBLE_EQ(volume_of(part.bodies[0].mesh), 2);
+  EXPECT_THROW(reader.read(step, Format::kStep, {}, "3"), FormatError);
 }
 
 // What bodies fill of a cube of 12 mm: so many mm³.
@@ -406,15 +443,16 @@ class Shells : public CadReader {
   std::mt19937 random_{1};
 };
 
-// Some corners are in another box, or none. No two edges lie in each other:
-// they would be sewn together.
+// Some corners are in another box, or none. Edges may lie in each other, but no
+// box is within another, of which it might be a void.
 TEST_F(Shells, ThatCrossAreUnited) {
   for (int i = 0; i < 40; ++i) {
     const int end = either() ? 7 : 12;
     const Box a{{0, 0, 0}, {6, 6, 6}, either()};
     const Box b{
-        {number(2, 4), number(1, 5), number(2, 5)}, {end, 8, 8}, either()};
-    const Box c{{1, number(3, 4), 1}, {5, 11, 10}, either()};
+        {number(0, 4), number(0, 5), number(1, 5)}, {end, 8, 8}, either()};
+    const Box c{
+        {number(0, 1), number(3, 4), number(0, 1)}, {5, 11, 10}, either()};
     const int two = volume_of(a) + volume_of(b) - volume_of_both(a, b);
     expect_volume({a, b}, two);
     expect_volume({a, b, c}, two + volume_of(c) - volume_of_both(a, c) -
