@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/text.h"
+#include "csg/import/mesh_file.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::compiler {
@@ -21,7 +22,8 @@ bool is_imported(const std::string& path) {
 }
 
 bool has_parts(const std::string& path) {
-  return slicer::is_named(path, ".fcstd") || slicer::is_named(path, ".3mf");
+  return csg::has_parts(
+      csg::import_format_of(std::filesystem::path(path).extension().string()));
 }
 
 std::string import_of(const std::string& path, const std::string& part) {

@@ -92,8 +92,8 @@ struct Request {
 // either; import() takes its mesh.)
 bool is_imported(const std::string& path);
 
-// Whether parts of the file have names that lamina reads: a FreeCAD file or a
-// 3MF. By its name.
+// Whether parts of the file have names or numbers that lamina reads: a file of
+// a CAD program or a 3MF. By its name.
 bool has_parts(const std::string& path);
 
 // The text of a design that imports the file beside it, or a part of it.

@@ -88,7 +88,7 @@ void require_heights(const std::vector<double>& heights) {
 
 void refuse_part(const DesignRequest& design) {
   refuse_if(!design.part.empty() && (design.text || !has_parts(design.path)),
-            "--part names a part of a .FCStd or .3mf; '{}' is not one",
+            "--part names a part of a CAD file or a 3MF; '{}' is neither",
             design.path);
 }
 

@@ -202,7 +202,7 @@ struct ImportParams {
   // The file is the design: a 3MF or AMF is read as slicers read it, with its
   // items where they are placed, and in its unit.
   bool is_design = false;
-  std::optional<std::string_view> id = std::nullopt;  // SVG; of 3MF the part
+  std::optional<std::string_view> id = std::nullopt;  // SVG; elsewhere the part
   std::optional<std::string_view> layer = std::nullopt;
   std::string_view entry;     // of a FreeCAD file: where a boundary is
   std::string_view boundary;  // and its bytes: the file is read once

@@ -1,25 +1,30 @@
 // lamina parts: what a file of several parts holds.
 
 #include <algorithm>
+#include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "base/diagnostic.h"
 #include "base/file/format_error.h"
+#include "base/file/module.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
+#include "cli/report/run_report.h"
 #include "compiler/request.h"
 #include "compiler/validate.h"
+#include "csg/cad/cad_reader.h"
 #include "csg/import/freecad/freecad_file.h"
 #include "csg/import/mesh_file.h"
 #include "plane/limits.h"
-#include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
 namespace {
@@ -27,9 +32,9 @@ namespace {
 constexpr std::string_view kPartsHelp =
     R"(Usage: lamina parts FILE
 
-Lists the parts of a FreeCAD file or a 3MF: the name and the label, either of
-which --part takes, what each is, and whether the file shows it. 'lamina
-FILE --part NAME' slices one part alone, shown or hidden.
+Lists the parts of a file of a CAD program or a 3MF: the name and the label,
+either of which --part takes, what each is, and whether the file shows it.
+'lamina FILE --part NAME' slices one part alone, shown or hidden.
 
   -h, --help  print this help
 )";
@@ -41,9 +46,33 @@ struct Part {
   bool is_shown = true;
 };
 
-std::vector<Part> read_parts(const std::string& path, std::string_view bytes) {
+Vec3 size_of(const csg::Mesh& mesh) {
+  Vec3 low(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (const Vec3 vertex : mesh.vertices) {
+    low = glm::min(low, vertex);
+    high = glm::max(high, vertex);
+  }
+  return high - low;
+}
+
+// Solids have numbers, and the names of products, of which several may be one.
+std::vector<Part> read_solids(std::string_view bytes, cad::Format format) {
+  Diagnostics diagnostics;
+  cad::Reader reader(module_folders(), diagnostics);
   std::vector<Part> parts;
-  if (slicer::is_named(path, ".fcstd")) {
+  for (cad::Body& body : reader.read(bytes, format, {}).bodies) {
+    parts.push_back({std::to_string(parts.size() + 1), std::move(body.name),
+                     size_text(size_of(body.mesh))});
+  }
+  return parts;
+}
+
+std::vector<Part> read_parts(const std::string& path, std::string_view bytes) {
+  const csg::ImportFormat format =
+      csg::import_format_of(std::filesystem::path(path).extension().string());
+  std::vector<Part> parts;
+  if (format == csg::ImportFormat::kFcstd) {
     for (csg::FreecadPart& part : csg::freecad_parts(bytes)) {
       const bool has_label = part.label != part.name;
       parts.push_back({std::move(part.name), has_label ? part.label : "",
@@ -51,6 +80,7 @@ std::vector<Part> read_parts(const std::string& path, std::string_view bytes) {
     }
     return parts;
   }
+  if (csg::is_cad(format)) return read_solids(bytes, cad::format_of(format));
   for (const csg::ThreemfPart& part : csg::threemf_parts(bytes)) {
     parts.push_back({part.id, part.name,
                      part.triangles == 0
@@ -90,7 +120,7 @@ class PartsCommand : public Command {
   void check() override {
     if (compiler::has_parts(path_)) return;
     throw compiler::RequestError(fmt::format(
-        "parts lists those of a .FCStd or .3mf, not of '{}'", path_));
+        "parts lists those of a CAD file or a 3MF; '{}' is neither", path_));
   }
 
   int run(const Context& context) override {

@@ -38,7 +38,7 @@ Usage:
   lamina inspect FILE [OPTION]...         list layers, measure and weigh them
   lamina compare A B [OPTION]...          compare two files or designs
   lamina view FILE -o PICTURE.png         draw a layer file or a design
-  lamina parts FILE                       list the parts of a .FCStd or .3mf
+  lamina parts FILE                       list the parts of a CAD file or a 3MF
   lamina printers                         list the printers that lamina knows
   lamina materials                        list its resins and metals
 
@@ -78,8 +78,8 @@ Design:
   --strict            write nothing where there is a warning or an error,
                       whichever; so do batches and runs with --root
   --no-strict         but not those with this option
-  --part NAME         only this part of a .FCStd or .3mf ('lamina parts FILE'
-                      lists them)
+  --part NAME         only this part of a CAD file or a 3MF ('lamina parts
+                      FILE' lists them)
   --language WORD     what OpenSCAD the design is written for: 2021 (2021.01),
                       2026, or auto: 2026 if 2021.01 cannot parse it, or if
                       what runs does nothing there [auto]

@@ -65,12 +65,13 @@ void write_part(const Part& part, const Writer& writer) {
 }
 
 void work(Engine& engine, std::string_view bytes, Format format,
-          const Fineness& fineness, const ChildOutput& output) {
+          const Fineness& fineness, std::optional<std::string_view> asked,
+          const ChildOutput& output) {
   // OpenCASCADE follows the environment to files of its own, and prints and
   // reads numbers in the process's locale.
   ::clearenv();
   std::setlocale(LC_ALL, "C");
-  const Result result = engine.read(bytes, format, fineness);
+  const Result result = engine.read(bytes, format, fineness, asked);
   const Writer writer(output);
   writer.write(static_cast<std::uint64_t>(result.outcome));
   writer.write_row(result.reason);
@@ -171,10 +172,12 @@ Result read_result(const Source& source) {
 }
 
 Result read_apart(Engine& engine, std::string_view bytes, Format format,
-                  const Fineness& fineness, unsigned most_seconds) {
+                  const Fineness& fineness,
+                  std::optional<std::string_view> asked,
+                  unsigned most_seconds) {
   ChildProcess child(
       [&](const ChildOutput& output) {
-        work(engine, bytes, format, fineness, output);
+        work(engine, bytes, format, fineness, asked, output);
       },
       most_seconds);
   try {
@@ -186,6 +189,12 @@ Result read_apart(Engine& engine, std::string_view bytes, Format format,
 
 }  // namespace
 
+Format format_of(csg::ImportFormat format) {
+  return format == csg::ImportFormat::kStep   ? Format::kStep
+         : format == csg::ImportFormat::kIges ? Format::kIges
+                                              : Format::kBrep;
+}
+
 Reader::Reader(std::vector<std::string> folders, Diagnostics& diagnostics,
                unsigned most_seconds)
     : folders_(std::move(folders)),
@@ -195,14 +204,16 @@ Reader::Reader(std::vector<std::string> folders, Diagnostics& diagnostics,
 Reader::~Reader() = default;
 
 Part Reader::read(std::string_view bytes, Format format,
-                  const Fineness& fineness) {
+                  const Fineness& fineness,
+                  std::optional<std::string_view> asked) {
   if (engine_ == nullptr) {
     auto* const make_engine = reinterpret_cast<MakeEngine*>(
         open_module(kModule, folders_, diagnostics_));
     engine_ = make_engine(kEngineVersion);
     if (engine_ == nullptr) fail_without_engine(kModule, 0, diagnostics_);
   }
-  Result result = read_apart(*engine_, bytes, format, fineness, most_seconds_);
+  Result result =
+      read_apart(*engine_, bytes, format, fineness, asked, most_seconds_);
   switch (result.outcome) {
     case Outcome::kRead:
       break;

@@ -8,6 +8,7 @@
 // file in a process of its own (decision 36).
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "base/diagnostic.h"
 #include "base/file/module.h"
 #include "csg/scene.h"
+#include "csg/tree.h"
 
 namespace lamina::cad {
 
@@ -29,6 +31,9 @@ enum class Format : std::uint8_t {
   kIges,
   kBrep,  // OpenCASCADE's own, as text or binary
 };
+
+// Of a FreeCAD file: that of the boundaries in it.
+Format format_of(csg::ImportFormat format);
 
 // How closely a mesh follows the surface that it stands for.
 struct Fineness {
@@ -74,10 +79,14 @@ class Reader {
   // Reads all solids of a file, assemblies with all instances of their parts.
   // Shells and faces that belong to no solid are sewn together first.
   //
-  // throws  FormatError for what cannot be read, whatever OpenCASCADE did then;
+  // asked   only the solids of this name, or the one of this number, from 1 in
+  //         the order of the file
+  // throws  FormatError for what cannot be read, whatever OpenCASCADE did then,
+  //         and where the file has no solid that is asked for;
   //         GeometryError where the module is missing; plane::LimitExceeded for
   //         too many triangles; std::bad_alloc
-  Part read(std::string_view bytes, Format format, const Fineness& fineness);
+  Part read(std::string_view bytes, Format format, const Fineness& fineness,
+            std::optional<std::string_view> asked = std::nullopt);
 
  private:
   std::vector<std::string> folders_;

@@ -4,6 +4,8 @@
 
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -18,8 +20,20 @@
 namespace lamina::cad {
 namespace {
 
-Part make_part(std::string_view bytes, Format format,
-               const Fineness& fineness) {
+// Keeps the solids of that name, or the one of that number.
+void keep_asked(std::string_view asked, std::vector<Solid>& solids) {
+  std::size_t number = 0;
+  std::erase_if(solids, [&](const Solid& solid) {
+    ++number;
+    return solid.name != asked && std::to_string(number) != asked;
+  });
+  if (solids.empty()) {
+    throw Unreadable{fmt::format("there is no part '{}'", asked)};
+  }
+}
+
+Part make_part(std::string_view bytes, Format format, const Fineness& fineness,
+               std::optional<std::string_view> asked) {
   if (fineness.chordal_error < kLeastChordalError) {
     throw Unreadable{fmt::format(
         "OpenCASCADE keeps no chordal error of {:.3g} mm, only {:g} "
@@ -29,7 +43,9 @@ Part make_part(std::string_view bytes, Format format,
   const ShapeFile file = read_shape(bytes, format);
   Part part;
   if (!file.loss.empty()) part.warnings.push_back(file.loss);
-  for (const Solid& solid : find_solids(file, fineness.chordal_error, part)) {
+  std::vector<Solid> solids = find_solids(file, fineness.chordal_error, part);
+  if (asked) keep_asked(*asked, solids);
+  for (const Solid& solid : solids) {
     part.bodies.push_back(
         {solid.name, tessellate(solid, fineness, part.warnings)});
   }
@@ -38,12 +54,12 @@ Part make_part(std::string_view bytes, Format format,
 
 class OpenCascade : public Engine {
  public:
-  Result read(std::string_view bytes, Format format,
-              const Fineness& fineness) noexcept override {
+  Result read(std::string_view bytes, Format format, const Fineness& fineness,
+              std::optional<std::string_view> asked) noexcept override {
     // Nobody reads what it says, and to say it takes time.
     try {
       Message::DefaultMessenger()->ChangePrinters().Clear();
-      return {.part = make_part(bytes, format, fineness)};
+      return {.part = make_part(bytes, format, fineness, asked)};
     } catch (const Unreadable& fault) {
       return {.outcome = Outcome::kBroken, .reason = fault.reason};
     } catch (const TooManyTriangles& fault) {

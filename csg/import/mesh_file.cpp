@@ -151,6 +151,15 @@ bool is_mesh(ImportFormat format) {
   }
 }
 
+bool is_cad(ImportFormat format) {
+  return format == ImportFormat::kStep || format == ImportFormat::kIges ||
+         format == ImportFormat::kBrep || format == ImportFormat::kFcstd;
+}
+
+bool has_parts(ImportFormat format) {
+  return format == ImportFormat::k3mf || is_cad(format);
+}
+
 std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                     const FileAccess& access, SourceRange range,
                                     Diagnostics& diagnostics) {

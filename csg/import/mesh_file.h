@@ -120,6 +120,12 @@ ImportFormat import_format_of(std::string_view extension);
 
 bool is_mesh(ImportFormat format);
 
+// Whether a CAD program writes it.
+bool is_cad(ImportFormat format);
+
+// Whether part= names parts of it: CAD programs' files and 3MF.
+bool has_parts(ImportFormat format);
+
 // Reads the bodies of a file; none where it cannot be read, which it reports in
 // OpenSCAD's words at `range`. It drops facets with coordinates that are no
 // numbers, with a warning, so all vertices are finite.

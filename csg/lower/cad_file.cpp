@@ -11,12 +11,6 @@
 namespace lamina::csg {
 namespace {
 
-cad::Format cad_format(ImportFormat format) {
-  return format == ImportFormat::kStep   ? cad::Format::kStep
-         : format == ImportFormat::kIges ? cad::Format::kIges
-                                         : cad::Format::kBrep;
-}
-
 // Returns the name with the entry of an archive as if that were a folder.
 std::string shown_name(const ImportParams& params) {
   return params.entry.empty()
@@ -40,8 +34,8 @@ cad::Part read_part(const ImportParams& params, double chordal_error,
       is_kept ? std::string() : read_bytes(params, access, range);
   try {
     return reader.read(is_kept ? params.boundary : file,
-                       cad_format(params.format),
-                       {.chordal_error = chordal_error});
+                       cad::format_of(params.format),
+                       {.chordal_error = chordal_error}, params.id);
   } catch (const FormatError& fault) {
     throw GeometryError({Severity::kError, range,
                          fmt::format("{} importing file '{}'", fault.what(),
@@ -50,11 +44,6 @@ cad::Part read_part(const ImportParams& params, double chordal_error,
 }
 
 }  // namespace
-
-bool is_cad_format(ImportFormat format) {
-  return format == ImportFormat::kStep || format == ImportFormat::kIges ||
-         format == ImportFormat::kBrep || format == ImportFormat::kFcstd;
-}
 
 std::vector<RawMesh> read_cad_file(const ImportParams& params,
                                    double chordal_error, cad::Reader& reader,

@@ -25,7 +25,7 @@ struct Survey {
 void survey(const Node& node, Survey& result) {
   if (node.children.empty()) ++result.childless;
   const auto* import = std::get_if<Import>(&node.op);
-  if (import && is_cad_format(import->params->format)) result.has_parts = true;
+  if (import && is_cad(import->params->format)) result.has_parts = true;
   for (const Node* child : node.children) {
     if (child->is_root && !result.root_modifier) result.root_modifier = child;
     survey(*child, result);

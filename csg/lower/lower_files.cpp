@@ -272,7 +272,7 @@ plane::Region read_svg(const ImportParams& params, const Fineness& fineness,
 Shape Lowerer::lower_op(const Import& op, const Place& at) {
   const ImportParams& params = *op.params;
   Fineness fine = fineness(params.facets, at.world);
-  if (is_cad_format(params.format) && !(fine.chordal_error > 0)) {
+  if (is_cad(params.format) && !(fine.chordal_error > 0)) {
     fine.chordal_error = chordal_error_of_parts_at(at.world);
   }
   const double decimation = decimation_of(params, at.world);
@@ -298,7 +298,7 @@ double Lowerer::decimation_of(const ImportParams& params,
                               const Affine& world) const {
   if (params.decimate) return *params.decimate;
   // Files of CAD programs have their own chordal error.
-  return is_cad_format(params.format) ? 0 : decimation_at(world);
+  return is_cad(params.format) ? 0 : decimation_at(world);
 }
 
 double Lowerer::chordal_error_of_parts_at(const Affine& world) const {
@@ -342,9 +342,8 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kFcstd:
       break;
   }
-  const double depth = is_cad_format(params.format)
-                           ? options_.hull_share * fine.chordal_error
-                           : 0;
+  const double depth =
+      is_cad(params.format) ? options_.hull_share * fine.chordal_error : 0;
   const auto make = [&] {
     return make_import_leaf(
         read_bodies(params, fine.chordal_error - depth, node), params, depth,
@@ -362,7 +361,7 @@ std::vector<RawMesh> Lowerer::read_bodies(const ImportParams& params,
                                           double chordal_error,
                                           const Node& node) {
   const FileAccess& access = *options_.file_access;
-  if (!is_cad_format(params.format)) {
+  if (!is_cad(params.format)) {
     return read_mesh_file(params, access, node.range, diagnostics_);
   }
   if (!options_.cad_reader) fail_unsupported(node, "import");

@@ -4,6 +4,7 @@
 // The engine works in a process of its own (base/child_process.h), which reads
 // one file and ends.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -30,11 +31,12 @@ class Engine {
   virtual ~Engine() = default;
 
   virtual Result read(std::string_view bytes, Format format,
-                      const Fineness& fineness) noexcept = 0;
+                      const Fineness& fineness,
+                      std::optional<std::string_view> asked) noexcept = 0;
 };
 
 // Grows with every change above.
-constexpr int kEngineVersion = 2;
+constexpr int kEngineVersion = 3;
 
 // The module's function: the engine, which nobody deletes; null if it has
 // another version.

@@ -264,8 +264,7 @@ std::string import_text(const ImportParams& params, Frame& frame) {
   const std::string file = relative_quoted(std::string(params.path), frame);
   const std::string origin =
       fmt::format("origin = [{:g}, {:g}], ", params.origin.x, params.origin.y);
-  const char* const id_name =
-      params.format == ImportFormat::k3mf ? "part" : "id";
+  const char* const id_name = has_parts(params.format) ? "part" : "id";
   const std::string id =
       params.id ? fmt::format("{} = {}, ", id_name, in_quotes(*params.id)) : "";
   const std::string dpi = params.format == ImportFormat::kSvg
@@ -316,13 +315,13 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
         path, part.is_undef() ? std::nullopt : std::optional(to_text(part)),
         call);
   }
-  const bool is_3mf = params.format == ImportFormat::k3mf;
-  if (!part.is_undef() && !is_3mf) {
-    call.warn("part= names objects of FreeCAD and 3MF files only");
+  const bool is_of_parts = has_parts(params.format);
+  if (!part.is_undef() && !is_of_parts) {
+    call.warn("part= names objects of CAD and 3MF files only");
   }
   params.rules = in.language();
   params.is_design = in.options().is_file;
-  if (const Value& named = is_3mf ? part : id; !named.is_undef()) {
+  if (const Value& named = is_of_parts ? part : id; !named.is_undef()) {
     params.id = in.keep_text(to_text(named));
   }
   if (!layer.is_undef()) params.layer = in.keep_text(to_text(layer));

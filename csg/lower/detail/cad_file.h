@@ -11,8 +11,6 @@
 
 namespace lamina::csg {
 
-bool is_cad_format(ImportFormat format);
-
 // Reads the solids of a file, and reports at `range` what the reader warns of.
 //
 // chordal_error  in the file's coordinates [mm]

@@ -1,5 +1,6 @@
 // lamina parts, and --part.
 
+#include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
@@ -70,6 +71,28 @@ TEST(Parts, AreListedWithWhatNamesThem) {
             "3            yes     made of others\n");
 }
 
+// A cylinder of radius 5 and height 12, and what names it in the file.
+TEST(Parts, OfCadFilesHaveNumbersAndNames) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(std::string(LAMINA_SEEDS) + "/step/cylinder",
+                             folder.file("a.step"));
+  const std::string name = "Open CASCADE STEP translator 7.6 1";
+  const std::string listed = run(folder, {"parts", "a.step"}).output;
+  EXPECT_TRUE(listed.starts_with(
+      "name  label                               shown   what\n"
+      "1     " +
+      name + "  yes     "))
+      << listed;
+  EXPECT_TRUE(listed.ends_with(" x 12 mm\n")) << listed;
+  for (const std::string& part : {std::string("1"), name}) {
+    EXPECT_TRUE(
+        has(run(folder, {"a.step", "--part", part}).errors, " x 12 mm"));
+  }
+  const auto none = run(folder, {"a.step", "--part", "2"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_TRUE(has(none.errors, "there is no part '2'")) << none.errors;
+}
+
 TEST(Parts, AreSlicedOneByOne) {
   const TemporaryFolder folder;
   folder.write("a.FCStd", two_boxes());
@@ -94,10 +117,12 @@ TEST(Parts, AreNamedWhereThereAreNone) {
   folder.write("b.3mf", "junk");
   EXPECT_TRUE(has(run(folder, {"a.3mf", "--part", "Nut"}).errors,
                   "3MF, there is no part 'Nut'"));
-  EXPECT_TRUE(has(run(folder, {"a.scad", "--part", "Lid"}).errors,
-                  "--part names a part of a .FCStd or .3mf; 'a.scad' is not"));
-  EXPECT_TRUE(has(run(folder, {"parts", "a.scad"}).errors,
-                  "parts lists those of a .FCStd or .3mf, not of 'a.scad'"));
+  EXPECT_TRUE(
+      has(run(folder, {"a.scad", "--part", "Lid"}).errors,
+          "--part names a part of a CAD file or a 3MF; 'a.scad' is neit"));
+  EXPECT_TRUE(
+      has(run(folder, {"parts", "a.scad"}).errors,
+          "parts lists those of a CAD file or a 3MF; 'a.scad' is neither"));
   for (const std::string file : {"b.3mf", "none.3mf"}) {
     const auto result = run(folder, {"parts", file});
     EXPECT_EQ(result.status, 1);
