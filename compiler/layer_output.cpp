@@ -33,6 +33,10 @@ LayerOutput LayerOutput::open(const Request& request,
   Machine machine =
       choose_machine(request.output, temporary_files.file_access());
   warn_of_machine(machine, request, diagnostics);
+  if (request.output.format == slicer::OutputFormat::kThreemf) {
+    diagnostics.own_remark(
+        {}, "programs that know no slices open this 3MF as a box");
+  }
   const auto deviation = promised_deviation(request);
   slicer::WriterOptions options;
   options.format = request.output.format;

@@ -140,7 +140,7 @@ void refuse_misfits(const Request& request) {
       ".sl1 and .zip need layers of one thickness, not --heights or "
       "--adaptive");
   refuse_if(format == kThreemf && has_heights,
-            ".3mf needs layers, not --heights");
+            ".slices.3mf needs layers, not --heights");
 }
 
 }  // namespace

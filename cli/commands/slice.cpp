@@ -53,7 +53,7 @@ Output:
                         .png             a folder of images
                         .sl1             images for Prusa's resin printers
                         .zip .nanodlp    images for printers with NanoDLP
-                        .3mf             a stack of slices
+                        .slices.3mf      a stack of slices
                         .layers.json     layers with every digit
                         .csg .echo .ast  what the design makes, says, and is
                         .param           its parameters, as JSON
@@ -167,12 +167,10 @@ Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
 )";
 
 void refuse_layers(const std::string& file) {
-  refuse_if(
-      slicer::is_named_as_layers(file) && !compiler::is_imported(file),
-      "'{}' holds layers already{}", file,
-      file.ends_with(".slc")
-          ? fmt::format("; try 'lamina inspect {0}' or 'lamina view {0}'", file)
-          : "");
+  refuse_if(slicer::is_named_as_layers(file),
+            "'{0}' holds layers already; try 'lamina inspect {0}' or 'lamina "
+            "view {0}'",
+            file);
 }
 
 // A word that looks like no file but much like a command.

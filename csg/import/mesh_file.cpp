@@ -187,6 +187,13 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
   std::vector<RawMesh>& bodies = meshes.bodies;
   if (std::any_of(bodies.begin(), bodies.end(),
                   [](const RawMesh& raw) { return raw.is_stand_in; })) {
+    if (params.is_design) {
+      throw GeometryError(
+          {Severity::kError, range,
+           fmt::format("'{0}' holds layers already, and a mesh that only "
+                       "stands in for them; try 'lamina inspect {0}'",
+                       path)});
+    }
     diagnostics.warning(
         range, fmt::format("'{}' shows its part by slices, and its mesh only "
                            "stands in for them{}",

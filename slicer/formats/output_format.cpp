@@ -23,7 +23,7 @@ constexpr std::array<Written, 13> kWritten = {{
     {"sl1", OutputFormat::kSl1},
     {"zip", OutputFormat::kNanoDlp},
     {"nanodlp", OutputFormat::kNanoDlp},
-    {"3mf", OutputFormat::kThreemf},
+    {"slices.3mf", OutputFormat::kThreemf},
     {"layers.json", OutputFormat::kLayersJson},
     {"ast", OutputFormat::kAst},
     {"param", OutputFormat::kParam},
@@ -37,11 +37,12 @@ struct Refused {
   std::string_view extension;
   std::string_view nearest;
 };
-constexpr std::array<Refused, 4> kRefused = {{
+constexpr std::array<Refused, 5> kRefused = {{
     {"stl", ".slc"},
     {"off", ".layers.json"},
     {"amf", ".slc"},
     {"dxf", ".svg"},
+    {"3mf", ".slices.3mf, which programs that know no slices open as a box"},
 }};
 
 bool has_extension(std::string_view name, std::string_view extension) {
@@ -85,11 +86,11 @@ FormatChoice choose_output_format(std::string_view name) {
     }
   }
   return {{},
-          fmt::format(
-              "'{}' has no extension that lamina knows (.slc .cli "
-              ".svg .png .sl1 .zip .nanodlp .3mf .layers.json .csg .echo .ast "
-              ".param)",
-              name),
+          fmt::format("'{}' has no extension that lamina knows (.slc .cli "
+                      ".svg .png .sl1 .zip .nanodlp .slices.3mf .layers.json "
+                      ".csg .echo .ast "
+                      ".param)",
+                      name),
           false};
 }
 

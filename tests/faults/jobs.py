@@ -129,7 +129,7 @@ _TINY = "--printer tiny.json --layer 0.2"
 
 ALL = [
     _slice("slc"), _slice("cli"), _slice("svg"), _slice("layers.json"),
-    _slice("3mf"), _slice("csg"), _slice("echo"), _slice("ast"),
+    _slice("slices.3mf"), _slice("csg"), _slice("echo"), _slice("ast"),
     _slice("zip", _TINY, "tiny.json"), _slice("sl1", _TINY, "tiny.json"),
     _slice("png", _TINY, "tiny.json", "/"),
     Job("long text", "wordy.scad -q -o out/a.echo", "wordy.scad",
@@ -173,7 +173,7 @@ ALL = [
         is_slow=True),
     Job("slow .layers.json", "slow.scad -q -o out/a.layers.json", "slow.scad",
         ["out/a.layers.json"], is_slow=True),
-    Job("slow .3mf", "slow.scad -q -o out/a.3mf", "slow.scad", ["out/a.3mf"],
+    Job("slow .3mf", "slow.scad -q -o out/a.slices.3mf", "slow.scad", ["out/a.slices.3mf"],
         is_slow=True),
     Job("slow .zip", f"slow.scad -q -o out/a.zip {_TINY}",
         "slow.scad tiny.json", ["out/a.zip"], is_slow=True),

@@ -138,7 +138,7 @@ TEST_P(Formats, TellTheSameLayers) {
                             {".cli", {"--cli", "binary"}, 0},
                             {".cli", {"--cli", "ascii"}, 0},
                             {".svg", {}, -0.05},
-                            {".3mf", {}, 0}};
+                            {".slices.3mf", {}, 0}};
   for (const Format& format : formats) {
     SCOPED_TRACE(format.ending);
     const std::vector<LayerFacts> found = read_independently(
@@ -156,7 +156,7 @@ TEST_P(Formats, Lib3mfReadsTheSameSlices) {
   const std::vector<LayerFacts> expected =
       read_json(slice(GetParam(), folder, ".layers.json"));
   const std::vector<LayerFacts> found = read_independently(
-      slice(GetParam(), folder, ".3mf"), "read_by_lib3mf.py");
+      slice(GetParam(), folder, ".slices.3mf"), "read_by_lib3mf.py");
   expect_same_layers(found, expected, 1e-6);
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_NEAR(found[i].height, expected[i].height, 2e-6);
@@ -242,7 +242,7 @@ TEST_P(Bytes, ThatFindNoRoomLeaveNothing) {
 
 INSTANTIATE_TEST_SUITE_P(AllFormats, Bytes,
                          testing::Values(".slc", ".cli", ".svg", ".png", ".sl1",
-                                         ".zip", ".3mf", ".layers.json"),
+                                         ".zip", ".slices.3mf", ".layers.json"),
                          [](const auto& ending) {
                            const std::string name = ending.param;
                            return name.substr(name.rfind('.') + 1);

@@ -119,7 +119,7 @@ const std::vector<std::vector<std::string>> kOutputs = {
     {"a.cli"},
     {"ascii.cli", "--cli", "ascii"},
     {"a.svg"},
-    {"a.3mf"},
+    {"a.slices.3mf"},
     {"a.layers.json"},
     {"a.png", "--layer", "1"},
     {"a.sl1", "--layer", "1"},

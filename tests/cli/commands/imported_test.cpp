@@ -1,12 +1,16 @@
 // Meshes and drawings in the place of a design.
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "tests/cli/lamina.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
+using support::has;
 using support::read_file;
 using support::TemporaryFolder;
 
@@ -83,15 +87,34 @@ TEST(Imported, AMissingMeshEndsWithOne) {
   EXPECT_EQ(folder.entry_count(), 0U);
 }
 
-TEST(Imported, TheMeshBesideSlicesIsNoneToCount) {
+// PrusaSlicer and OpenSCAD open it as a box, so its name says what it is.
+TEST(Imported, SlicesOf3mfAreNoMesh) {
   const TemporaryFolder folder;
   folder.write("a.scad", "sphere(3);");
-  ASSERT_EQ(run(folder, {"a.scad", "-o", "a.3mf"}).status, 0);
-  const auto result = run(folder, {"a.3mf"});
-  EXPECT_EQ(result.status, 0);
-  EXPECT_NE(result.errors.find("its mesh only stands in for them"),
-            std::string::npos)
-      << result.errors;
+  const auto refused = run(folder, {"a.scad", "-o", "a.3mf"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_TRUE(has(refused.errors,
+                  "it writes no .3mf; the nearest output is .slices.3mf, which "
+                  "programs that know no slices open as a box"))
+      << refused.errors;
+  const auto written = run(folder, {"a.scad", "-o", "a.slices.3mf"});
+  EXPECT_EQ(written.status, 0);
+  EXPECT_TRUE(has(written.errors,
+                  "programs that know no slices open this 3MF as a box"))
+      << written.errors;
+  const auto sliced = run(folder, {"a.slices.3mf"});
+  EXPECT_EQ(sliced.status, 2);
+  EXPECT_TRUE(has(sliced.errors, "'a.slices.3mf' holds layers already; try"))
+      << sliced.errors;
+  std::filesystem::rename(folder.file("a.slices.3mf"), folder.file("b.3mf"));
+  const auto box = run(folder, {"b.3mf"});
+  EXPECT_EQ(box.status, 1);
+  EXPECT_TRUE(has(box.errors, "holds layers already, and a mesh that only"))
+      << box.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.slc")));
+  folder.write("c.scad", "import(\"b.3mf\");");
+  EXPECT_TRUE(
+      has(run(folder, {"c.scad"}).errors, "its mesh only stands in for them"));
 }
 
 TEST(Imported, PicturesAreRefused) {

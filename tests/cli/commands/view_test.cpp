@@ -28,7 +28,7 @@ TEST(View, DrawsASheetAndAStackOfAFile) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cylinder(r = 5, h = 3, $fn = 60);");
   for (const char* const file :
-       {"a.slc", "a.cli", "a.svg", "a.3mf", "a.layers.json"}) {
+       {"a.slc", "a.cli", "a.svg", "a.slices.3mf", "a.layers.json"}) {
     ASSERT_EQ(run(folder, {"a.scad", "-o", file}).status, 0);
     for (const bool is_stack : {false, true}) {
       std::vector<std::string> words = {"view", file, "-o", "a.png"};
