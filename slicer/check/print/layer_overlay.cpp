@@ -297,9 +297,16 @@ class OverhangSearch {
   void search_part(const Ledge& ledge, const Cursor& lower, const Cursor& upper,
                    double left, double right) {
     const double area = overhang_.area;
-    for (double column = std::ceil(left / pitch_); column * pitch_ < right;
-         ++column) {
-      search_column(ledge, lower, upper, column * pitch_);
+    const double first = std::ceil(left / pitch_);
+    const double end = std::ceil(right / pitch_);
+    const double least = least_step(end - first);
+    double columns = 1;
+    for (double column = first; column < end;) {
+      columns = std::min(columns, end - column);
+      const double beyond =
+          search_column(ledge, lower, upper, column * pitch_, columns);
+      column += columns;
+      columns = std::max(least, std::floor(kStride / 2 * beyond / pitch_));
     }
     for (const Cursor* const cursor : {&lower, &upper}) {
       if (cursor->right() != right) continue;
@@ -319,28 +326,43 @@ class OverhangSearch {
                     box_.high.y);
   }
 
-  void search_column(const Ledge& ledge, const Cursor& lower,
-                     const Cursor& upper, double x) {
+  // A part has straight sides: so many columns, and places in one, tell of any.
+  static double least_step(double count) {
+    constexpr double kMost = 256;
+    return std::max(1.0, std::floor(count / kMost));
+  }
+
+  // Returns how far beyond the reach the farthest place is that was asked.
+  //
+  // columns  for which this one stands: from here on to the right
+  double search_column(const Ledge& ledge, const Cursor& lower,
+                       const Cursor& upper, double x, double columns) {
     const double low = low_at(ledge, lower, x);
     const double high = high_at(ledge, upper, x);
-    if (!(low <= high)) return;
+    double farthest = 0;
+    if (!(low <= high)) return farthest;
+    const double first_row = std::ceil(low / pitch_);
     const double last_row = std::floor(high / pitch_);
-    for (double row = std::ceil(low / pitch_); row <= last_row;) {
+    const double least = least_step(last_row - first_row);
+    for (double row = first_row; row <= last_row;) {
       const Vec2 place(x, row * pitch_);
       const double distance =
           ask(place, distance_to_chains(ledge, lower, upper, place));
       if (distance <= reach_) {
-        ++row;
+        row += least;
         continue;
       }
       // What is nearer than that to the place hangs over as well.
       const double rows =
-          std::max(1.0, std::floor(kStride * (distance - reach_) / pitch_));
+          std::max(least, std::floor(kStride * (distance - reach_) / pitch_));
       const double end = std::min(row + rows, last_row + 1);
-      overhang_.area += (end - row) * pitch_ * pitch_;
+      farthest = std::max(farthest, distance - reach_);
+      overhang_.area += (end - row) * columns * pitch_ * pitch_;
       overhang_.box.add(Vec2(x, (end - 1) * pitch_));
+      overhang_.box.add(Vec2(x + (columns - 1) * pitch_, row * pitch_));
       row = end;
     }
+    return farthest;
   }
 
   // Asks the middle of a part, or of its free side if it has one whose vertex
@@ -449,7 +471,8 @@ class OverhangSearch {
   static constexpr double kMostPlaces = 512 * 512;
   // In a column the next place follows after this share of the distance that
   // the last one had beyond the reach: the greatest distance falls short by a
-  // tenth at most.
+  // tenth at most. Columns go by the greatest of the one before, and by half of
+  // that: what is greater may stand out to either side.
   static constexpr double kStride = 0.2;
 
   const plane::Contours& below_;
