@@ -372,7 +372,7 @@ std::vector<Finding> Design::check(const SliceOptions& options,
                                    double self_supporting) const {
   compiler::Request request = state_->with_job(options);
   require(options.heights.empty(), "check needs whole layers, not heights");
-  request.job.self_supporting = self_supporting;
+  request.job.print.self_supporting = self_supporting;
   request.job.finds_makers = true;
   return to_findings(state_->look(request, {}));
 }
@@ -380,7 +380,7 @@ std::vector<Finding> Design::check(const SliceOptions& options,
 Inspection Design::inspect(const SliceOptions& options,
                            const InspectOptions& wanted) const {
   compiler::Request request = state_->with_job(options);
-  request.job.self_supporting = wanted.self_supporting;
+  request.job.print.self_supporting = wanted.self_supporting;
   request.job.finds_makers = true;
   request.job.min_feature = wanted.min_feature;
   return to_inspection(state_->look(request, {.finds_defects = true}));
@@ -388,14 +388,14 @@ Inspection Design::inspect(const SliceOptions& options,
 
 Inspection inspect_file(const std::string& path, const InspectOptions& wanted) {
   compiler::Request request;
-  request.job.self_supporting = wanted.self_supporting;
+  request.job.print.self_supporting = wanted.self_supporting;
   request.job.min_feature = wanted.min_feature;
   require_valid(request);
   Messages messages(nullptr);
   return messages.run([&](Diagnostics&) {
     return to_inspection(compiler::look_at_file(
         path, {.finds_defects = true, .min_feature = wanted.min_feature},
-        wanted.self_supporting, kAllFiles));
+        request.job.print, kAllFiles));
   });
 }
 

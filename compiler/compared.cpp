@@ -34,7 +34,7 @@ class ComparedFile : public Compared {
   const std::vector<Layer>& layers() override {
     if (!file_) {
       file_ = look_at_file(path_, {.makes_graph = false, .keeps_layers = true},
-                           0, file_access_);
+                           {}, file_access_);
     }
     return file_->layers;
   }

@@ -18,12 +18,13 @@ using slicer::Layer;
 // Inspects layers and keeps them if asked.
 class Looker : public slicer::LayerSink {
  public:
-  Looker(const LookOptions& options, bool makes_graph, double self_supporting)
+  Looker(const LookOptions& options, bool makes_graph,
+         const slicer::PrintRules& rules)
       : keeps_layers_(options.keeps_layers),
         inspector_({.finds_defects = options.finds_defects,
                     .min_feature = options.min_feature,
                     .makes_graph = makes_graph,
-                    .self_supporting = self_supporting}) {}
+                    .print = rules}) {}
 
   void take(const Layer& layer) override {
     inspector_.take(layer);
@@ -88,8 +89,9 @@ void require_readable(std::string_view command, const std::string& path) {
 }
 
 Inspection look_at_file(const std::string& path, const LookOptions& options,
-                        double self_supporting, const FileAccess& access) {
-  Looker looker(options, options.makes_graph, self_supporting);
+                        const slicer::PrintRules& rules,
+                        const FileAccess& access) {
+  Looker looker(options, options.makes_graph, rules);
   slicer::LayerFileFacts facts =
       slicer::is_named(path, ".slc")
           ? read_slc(path, looker, access)
@@ -103,7 +105,7 @@ Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
                           const LookOptions& options, const Progress& progress,
                           Diagnostics& diagnostics) {
   const slicer::Settings settings = settings_of(request);
-  Looker looker(options, false, 0);
+  Looker looker(options, false, {});
   slicer::SliceReport report = slice(lowered, plan(lowered, settings), settings,
                                      looker, progress, diagnostics);
   slicer::LayerFileFacts exact;
@@ -122,8 +124,7 @@ std::optional<Inspection> look_at(Compilation& c, const LookOptions& options) {
   const std::string& path = request.design.path;
   if (holds_layers(path, c.file_access())) {
     refuse_design_options(request.design, path);
-    return look_at_file(path, options, request.job.self_supporting,
-                        c.file_access());
+    return look_at_file(path, options, request.job.print, c.file_access());
   }
   const auto lowered = make_geometry(c);
   if (!lowered) return std::nullopt;

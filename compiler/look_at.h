@@ -54,7 +54,8 @@ std::optional<Inspection> look_at(Compilation& compilation,
 
 // Looks at a file of layers alone.
 Inspection look_at_file(const std::string& path, const LookOptions& options,
-                        double self_supporting, const FileAccess& access);
+                        const slicer::PrintRules& rules,
+                        const FileAccess& access);
 
 // Looks at a design that has been made.
 Inspection look_at_design(const csg::Lowered& lowered, const Request& request,

@@ -49,7 +49,7 @@ constexpr std::array<NumberLimits, 15> kNumbers = {{
      "must be {1} to {2} mm, not {0}",
      [](const Request& r) { return r.job.min_feature; }, true},
     {"--self-supporting", kAboveZero, kUnlimited, kMoreThanZero,
-     [](const Request& r) { return r.job.self_supporting; }, true},
+     [](const Request& r) { return r.job.print.self_supporting; }, true},
     {"--threads", 1, 1024, kFromTo,
      [](const Request& r) { return static_cast<double>(r.job.threads); }, true},
     {"--scale", kLeastScale, kGreatestScale, kFromTo,

@@ -4,6 +4,9 @@
 #include <array>
 #include <set>
 #include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "base/text.h"
 #include "cli/commands/commands.h"
@@ -11,38 +14,47 @@
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
+#include "cli/report/feature_table.h"
 #include "cli/report/finding_table.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/look_at.h"
+#include "compiler/machine.h"
+#include "slicer/machine/estimate.h"
 
 namespace lamina::cli {
 namespace {
 
 constexpr std::string_view kCheckHelp =
-    R"(Usage: lamina check FILE [OPTION]...
+    R"(Usage: lamina check FILE... [OPTION]...
 
-Says what would go wrong in the print of a .scad or .csg design, with any option
-that slicing has, or of a file of layers (.slc, .cli, .svg, .3mf, .sl1, .zip,
-.layers.json, a folder of images):
+Says whether a design would print, or a file of layers (.slc, .cli, .svg,
+.slices.3mf, .sl1, .zip, .layers.json, a folder of images), and what would go
+wrong. It takes the options of slicing and writes no file:
 
+  loose parts    are connected to nothing that reaches the bed
   islands        begin in mid-air: nothing in the layer below holds them
-  loose parts    hang together with nothing that reaches the bed
+  resin traps    are hollows without a way out
+  suction cups   are hollows that nothing leads out of while they are built:
+                 the plate or the film closes them
   overhangs      stand out over the layer below by more than a surface of 45°
                  does
-  suction cups   hollows that nothing leads out of while they are built: the
-                 plate or the film closes them
-  resin traps    hollows that nothing leads out of at all
 
-with layers, places, sizes and, of a design, the lines that made them. Ends with
-1 if there is any. What is too small to matter is counted apart.
+Each has its layers, its place, its size and, in a design, the line that makes
+it; the worst comes first. With --printer it says whether the part fits; with
+--min-feature, which walls and gaps are thin. What is smaller than a pixel of
+the printer (0.001 mm² where none is named) is only counted. The exit status is
+1 if something would go wrong.
 
+  --printer P         the printer, as for slicing
+  --material M        a resin or a metal, as for slicing
+  --min-feature MM    report walls and gaps thinner than this
   --allow KIND        islands, loose-parts, overhangs, suction-cups or
                       resin-traps do no harm; may be repeated
   --self-supporting MM
                       how far a layer may stand out over the one below [as far
                       as a surface of 45° does]
-  --json              print all of it as JSON
+  --json              print all of it as JSON, of one file
   -h, --help          print this help
 )";
 
@@ -54,31 +66,44 @@ class CheckCommand : public Command {
   std::string_view help() const override { return kCheckHelp; }
 
   void add_options(OptionList& options) override {
-    options.word("file", request_.design.path).required();
+    options.words("file", files_).required();
     options.flag("--json", is_json_);
     options.texts("--allow",
                   "{islands,loose-parts,overhangs,suction-cups,resin-traps}",
                   [this](const std::string& word) { allow(word); });
-    options.number("--self-supporting", "length", request_.job.self_supporting);
+    options.number("--self-supporting", "length",
+                   request_.job.print.self_supporting);
+    options.number("--min-feature", "length", request_.job.min_feature);
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
+    add_machine_options(options, request_);
     note_design_option(options, request_);
   }
 
   void check() override {
-    compiler::require_readable("check", request_.design.path);
-    compiler::validate(request_);
+    for (const std::string& file : files_) {
+      request_.design.path = file;
+      compiler::require_readable("check", file);
+      compiler::validate(request_);
+    }
     refuse_if(!request_.job.heights.empty(),
               "check needs whole layers, not --heights");
+    refuse_if(is_json_ && files_.size() > 1, "--json takes one file");
     request_.job.finds_makers = true;
   }
 
   int run(const Context& context) override {
-    Session session(request_, is_quiet_, context);
-    return session.run([&] {
-      context.expect_outputs({"-"});
-      return check_print(session.compilation);
-    });
+    int status = kDone;
+    for (const std::string& file : files_) {
+      compiler::Request request = request_;
+      request.design.path = file;
+      Session session(request, is_quiet_, context);
+      status = std::max(status, session.run([&] {
+        if (&file == &files_.front()) context.expect_outputs({"-"});
+        return check_print(session.compilation, request.job.print);
+      }));
+    }
+    return status;
   }
 
  private:
@@ -92,24 +117,73 @@ class CheckCommand : public Command {
         static_cast<slicer::FindingKind>(found - kKindWords.begin()));
   }
 
-  int check_print(compiler::Compilation& compilation) const {
-    const auto inspection = compiler::look_at(compilation, {});
+  // rules  those of the compilation's request
+  int check_print(compiler::Compilation& compilation,
+                  slicer::PrintRules& rules) const {
+    const compiler::Request& request = compilation.request;
+    const compiler::Machine machine =
+        compiler::choose_machine(request.output, compilation.file_access());
+    if (machine.printer) {
+      rules.least_area = machine.printer->pixel.x * machine.printer->pixel.y;
+      rules.least_volume = rules.least_area * request.job.layer_thickness;
+    }
+    const bool is_file =
+        compiler::holds_layers(request.design.path, compilation.file_access());
+    const auto inspection = compiler::look_at(
+        compilation, {.min_feature = is_file ? request.job.min_feature : 0});
     if (!inspection) return kFault;
     const auto& [found, lines, layers] = *inspection;
     report_skipped(compilation, found.file);
     const slicer::PrintCheck& print = *found.print;
-    print_out(is_json_
-                  ? json_text(print_json(print, lines.findings))
-                  : finding_table(print, compiler::texts_of(lines.findings)));
-    return std::ranges::any_of(print.findings,
-                               [&](const slicer::Finding& finding) {
-                                 return !finding.is_minor &&
-                                        !allowed_.contains(finding.kind);
-                               })
-               ? kFault
-               : kDone;
+    if (is_json_) {
+      print_out(json_text(print_json(print, lines.findings)));
+    } else {
+      print_out(text_of(*inspection, machine, request));
+    }
+    const bool fits =
+        !machine.printer || slicer::fits(*machine.printer, found.box.size());
+    return fits && found.features.empty() &&
+                   std::ranges::all_of(print.findings,
+                                       [&](const slicer::Finding& finding) {
+                                         return finding.is_minor ||
+                                                allowed_.contains(finding.kind);
+                                       })
+               ? kDone
+               : kFault;
   }
 
+  std::string text_of(const compiler::Inspection& inspection,
+                      const compiler::Machine& machine,
+                      const compiler::Request& request) const {
+    const slicer::Inspection& found = inspection.found;
+    std::string text;
+    if (files_.size() > 1) {
+      text += fmt::format("{}\n", on_one_line(request.design.path));
+    }
+    if (machine.printer) {
+      const Vec3 size = found.box.size();
+      text +=
+          slicer::fits(*machine.printer, size)
+              ? fmt::format("fits: {} on {}\n", size_text(size),
+                            machine.printer->title)
+              : fmt::format("does not fit: {}\n",
+                            slicer::too_large(*machine.printer, size).what());
+    }
+    const std::string estimate = slicer::estimate_text(
+        machine.printer, machine.material,
+        slicer::estimate_print(machine.printer, machine.material,
+                               found.layers.size(), found.volume));
+    if (!estimate.empty()) text += estimate + '\n';
+    text += finding_table(*found.print,
+                          compiler::texts_of(inspection.lines.findings));
+    if (request.job.min_feature > 0) {
+      text += feature_table(found.features, request.job.min_feature,
+                            compiler::texts_of(inspection.lines.features));
+    }
+    return text;
+  }
+
+  std::vector<std::string> files_;
   compiler::Request request_;
   bool is_quiet_ = false;
   bool is_json_ = false;

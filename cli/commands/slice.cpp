@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -173,17 +174,52 @@ void refuse_layers(const std::string& file) {
             file);
 }
 
-// A word that looks like no file but much like a command.
+// A word that looks like no file but much like a command, or is one that does
+// not come first.
 void refuse_misspelt_command(const std::string& word) {
   std::vector<std::string_view> commands;
   commands.reserve(std::size(kNamedCommands));
   for (const NamedCommand& named : kNamedCommands) {
     commands.push_back(named.name);
+    refuse_if(word == named.name,
+              "the command '{0}' stands before the files (a file: ./{0})",
+              word);
   }
   if (word.find_first_of("./") != std::string::npos) return;
   const std::string hint = did_you_mean(word, commands);
   refuse_if(!hint.empty(), "there is no command '{0}'; {1} (a file: ./{0})",
             word, hint);
+}
+
+// As a shell reads it: in quotes where it has to be.
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+      "-_./=,:+%@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+    return word;
+  }
+  std::string quoted = "'";
+  for (const char letter : on_one_line(word)) {
+    quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
+  }
+  return quoted + "'";
+}
+
+// The given options that check has, too, each behind a blank.
+std::string check_words(const OptionList& options) {
+  OptionList known;
+  const std::unique_ptr<Command> check = make_check_command();
+  check->add_options(known);
+  std::string words;
+  for (const GivenOption& option : options.given()) {
+    if (option.name == "--quiet" || !known.find(option.name)) continue;
+    for (const std::string& word : option.words) {
+      words += " " + option.name;
+      if (option.has_value) words += " " + shell_word(word);
+    }
+  }
+  return words;
 }
 
 class SliceCommand : public Command {
@@ -207,20 +243,26 @@ class SliceCommand : public Command {
     add_output_options(options, request_, output_);
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
+    options.on_read([this, &options] { check_words_ = check_words(options); });
   }
 
   void check() override {
     refuse_if(designs_.empty(), "no design was given");
-    refuse_misspelt_command(designs_.front());
-    for (const std::string& design : designs_) refuse_layers(design);
+    for (const std::string& design : designs_) {
+      refuse_misspelt_command(design);
+      refuse_layers(design);
+    }
     if (request_.output.dump) return check_dump();
     refuse_if(request_.output.path == "-" && output_.export_format.empty(),
               "-o - needs --export-format");
     refuse_if(watches_ && (designs_.size() > 1 || request_.output.path == "-"),
               "--watch needs one design and a file to write");
+    refuse_if(
+        std::ranges::find(designs_, "-") != designs_.end() &&
+            (designs_.size() > 1 || watches_ || request_.output.path.empty()),
+        "a design from standard input (-) stands alone and needs -o");
     if (designs_.size() > 1) return check_several();
     request_.design.path = designs_.front();
-    makes_folder_ = is_folder() || is_pattern();
     request_.output.path = output_of(request_.design.path);
     choose_format(request_, output_, request_.output.path);
   }
@@ -231,16 +273,22 @@ class SliceCommand : public Command {
     return session.run([&] {
       context.expect_outputs(
           {request_.output.path, request_.output.dependencies, output_.report});
-      if (makes_folder_)
-        make_folder_of(request_.output.path, context.file_access());
+      make_folder_of(request_.output.path, context.file_access());
       if (watches_) {
-        compile_and_watch(request_, output_.report, is_quiet_, context);
+        compile_and_watch(request_, closing(), is_quiet_, context);
       }
-      return compile_and_report(session, output_.report);
+      return compile_and_report(session, closing());
     });
   }
 
  private:
+  Closing closing() const {
+    return {output_.report,
+            fmt::format("lamina check {}{}",
+                        shell_word(display_path(request_.design.path)),
+                        check_words_)};
+  }
+
   std::string extension() const {
     return output_.export_format.empty() ? "slc" : output_.export_format;
   }
@@ -322,10 +370,10 @@ class SliceCommand : public Command {
   }
 
   std::vector<std::string> designs_;
+  std::string check_words_;    // of the options that check has, too
   compiler::Request request_;  // of each
   bool is_quiet_ = false;
   OutputOptions output_;
-  bool makes_folder_ = false;
   bool watches_ = false;
 };
 

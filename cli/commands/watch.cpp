@@ -150,7 +150,7 @@ std::string change_line(const std::set<std::string>& files) {
 
 // Adds the files on which the output was found to depend. Returns whether the
 // compilation ended well.
-bool compile_once(const compiler::Request& request, const std::string& report,
+bool compile_once(const compiler::Request& request, const Closing& closing,
                   bool is_quiet, const Context& context,
                   std::set<std::string>& files) {
   const ProcessWatch::Part timed(context.watch, "");
@@ -158,7 +158,7 @@ bool compile_once(const compiler::Request& request, const std::string& report,
   context.file_access().run_files()->begin_again(context.file_access());
   Session session(request, is_quiet, context);
   const int status = session.run(
-      [&] { return compile_and_report(session, report, earlier_seconds); });
+      [&] { return compile_and_report(session, closing, earlier_seconds); });
   const compiler::Compilation& compilation = session.compilation;
   files.insert(compilation.loader.files().begin(),
                compilation.loader.files().end());
@@ -168,9 +168,8 @@ bool compile_once(const compiler::Request& request, const std::string& report,
 
 }  // namespace
 
-void compile_and_watch(const compiler::Request& request,
-                       const std::string& report, bool is_quiet,
-                       const Context& context) {
+void compile_and_watch(const compiler::Request& request, const Closing& closing,
+                       bool is_quiet, const Context& context) {
   context.watch.time_parts();
   FileWatcher watcher;
   Terminal terminal(is_quiet);
@@ -180,7 +179,7 @@ void compile_and_watch(const compiler::Request& request,
     const auto begin = fs::file_time_type::clock::now() - kClockStep;
     std::set<std::string> files = given_files(request);
     const bool is_done =
-        compile_once(request, report, is_quiet, context, files);
+        compile_once(request, closing, is_quiet, context, files);
     // A design that failed half way does not know all that it depends on.
     if (!is_done) files.insert(watched.begin(), watched.end());
     watched = files;

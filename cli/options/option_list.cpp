@@ -1,12 +1,15 @@
 #include "cli/options/option_list.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/similar.h"
 #include "base/version.h"
@@ -17,25 +20,59 @@ namespace {
 
 Option refuse_empty(CLI::Option* option, const std::string& what) {
   option->type_name(what)->check([what](const std::string& text) {
-    return text.empty() ? fmt::format("a {} was expected, not ''", what) : "";
+    // "-o=ring.slc" would be a file of the name "=ring.slc".
+    return text.empty() || text.starts_with('=')
+               ? fmt::format("a {} was expected, behind a blank, not '{}'",
+                             what, text)
+               : "";
   });
   return Option(*option);
 }
 
-// For the first word that is not an option but much like one.
+// Words of CLI11, "-o: 1 required file missing", as others say it.
+std::string words_of(const CLI::ArgumentMismatch& fault) {
+  const std::string words = fault.what();
+  constexpr std::string_view kMiddle = ": 1 required ";
+  constexpr std::string_view kEnd = " missing";
+  const std::size_t middle = words.find(kMiddle);
+  if (middle == std::string::npos || !words.ends_with(kEnd)) return words;
+  const std::size_t begin = middle + kMiddle.size();
+  return fmt::format("{} needs a {}", words.substr(0, middle),
+                     words.substr(begin, words.size() - begin - kEnd.size()));
+}
+
+// Names that other programs give to options of lamina.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kOthers =
+    {{{"--layer-height", "--layer"},
+      {"--output", "-o"},
+      {"--export-sla", "-o"},
+      {"--load", "--printer"},
+      {"-j", "--threads"},
+      {"-V", "--version"}}};
+
+// For the first word that is not an option but much like one, or one of another
+// program.
 std::string hint_for(const CLI::App& app) {
   std::vector<std::string> own;
   for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      own.push_back("--" + name);
-    }
+    for (const std::string& name : option->get_lnames()) own.push_back(name);
   }
   const std::vector<std::string_view> names(own.begin(), own.end());
   for (const std::string& word : app.remaining()) {
-    if (!word.starts_with("--")) continue;
-    const std::string hint =
-        did_you_mean(std::string_view(word).substr(0, word.find('=')), names);
-    if (!hint.empty()) return "; " + hint;
+    if (!word.starts_with('-')) continue;
+    const std::string_view name =
+        std::string_view(word).substr(0, word.find('='));
+    for (const auto& [other, ours] : kOthers) {
+      // A short one may have its value behind it.
+      if (other.starts_with("--") ? name == other : name.starts_with(other)) {
+        return fmt::format("; did you mean '{}'?", ours);
+      }
+    }
+    if (!name.starts_with("--")) continue;
+    const std::string_view similar = most_similar(name.substr(2), names);
+    if (!similar.empty()) {
+      return fmt::format("; did you mean '--{}'?", similar);
+    }
   }
   return "";
 }
@@ -172,7 +209,12 @@ Option OptionList::choice(const std::string& name,
                           const Use& use) {
   return Option(*app_->add_option_function<std::string>(name, use)
                      ->type_name("word")
-                     ->check(CLI::IsMember(words)));
+                     ->check([words](const std::string& word) {
+                       return std::ranges::find(words, word) != words.end()
+                                  ? ""
+                                  : fmt::format("expected {}, not '{}'",
+                                                fmt::join(words, ", "), word);
+                     }));
 }
 
 Option OptionList::boolean(const std::string& name, bool& target) {
@@ -220,6 +262,8 @@ std::optional<std::string> OptionList::read(int argc, const char* const* argv,
     return fmt::format("{}\n", version.what());
   } catch (const CLI::ExtrasError& error) {
     throw compiler::RequestError(error.what() + hint_for(*app_));
+  } catch (const CLI::ArgumentMismatch& error) {
+    throw compiler::RequestError(words_of(error));
   } catch (const CLI::ParseError& error) {
     throw compiler::RequestError(error.what());
   }
@@ -230,8 +274,8 @@ std::vector<GivenOption> OptionList::given() const {
   std::vector<GivenOption> given;
   for (const CLI::Option* option : app_->get_options()) {
     if (option->count() == 0) continue;
-    given.push_back(
-        {option->get_name(), option->get_group(), option->results()});
+    given.push_back({option->get_name(), option->get_group(),
+                     option->get_expected_max() > 0, option->results()});
   }
   return given;
 }

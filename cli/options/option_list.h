@@ -50,6 +50,7 @@ struct OptionFacts {
 struct GivenOption {
   std::string name;
   std::string group;
+  bool has_value = false;
   std::vector<std::string> words;
 };
 

@@ -10,7 +10,9 @@
 namespace lamina::cli {
 double require_number(const std::string& option, std::string_view text) {
   const std::optional<double> value = parse_number(text);
-  require(value.has_value(), option, "a number was expected, not '{}'", text);
+  require(value.has_value(), option,
+          "a number was expected, such as 0.05, without a unit, not '{}'",
+          text);
   return *value;
 }
 

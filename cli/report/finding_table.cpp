@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
-#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,18 +19,16 @@ using slicer::FindingKind;
 using slicer::Peel;
 using slicer::PrintCheck;
 
-constexpr std::size_t kMostLines = 40;
+// Rows of a kind; what is left shares one more.
+constexpr std::size_t kMostRows = 5;
 
-std::string layers_text(const Finding& finding) {
-  return finding.first_layer == finding.last_layer
-             ? fmt::format("{}", finding.first_layer)
-             : fmt::format("{}-{}", finding.first_layer, finding.last_layer);
-}
-
-// A line of the table: the greatest of all findings of a kind and a source
-// line.
-struct Line {
-  std::size_t greatest = 0;  // index of the finding
+// A row of the table: findings of a kind and a source line, or those that are
+// left.
+struct Row {
+  const Finding* greatest = nullptr;
+  std::string_view source_line;
+  std::uint32_t first_layer = 0;
+  std::uint32_t last_layer = 0;
   std::size_t count = 0;
 };
 
@@ -46,30 +43,77 @@ double weight_of(const Finding& finding) {
   }
 }
 
-// By kind, then from the bottom to the top.
-std::vector<Line> lines_of(const std::vector<Finding>& findings,
-                           std::span<const std::string> source_lines) {
-  std::vector<Line> lines;
-  std::map<std::pair<FindingKind, std::string_view>, std::size_t> known;
-  for (std::size_t i = 0; i < findings.size(); ++i) {
-    if (findings[i].is_minor) continue;
-    if (source_lines.empty() || source_lines[i].empty()) {
-      lines.push_back({i, 1});
-      continue;
-    }
-    const auto [at, is_new] =
-        known.try_emplace({findings[i].kind, source_lines[i]}, lines.size());
-    if (is_new) lines.push_back({i});
-    Line& line = lines[at->second];
-    ++line.count;
-    if (weight_of(findings[i]) > weight_of(findings[line.greatest])) {
-      line.greatest = i;
-    }
+void add_to(Row& row, const Row& other) {
+  if (row.count == 0 || weight_of(*other.greatest) > weight_of(*row.greatest)) {
+    row.greatest = other.greatest;
   }
-  std::ranges::stable_sort(lines, {}, [&](const Line& line) {
-    return findings[line.greatest].kind;
+  row.first_layer = row.count == 0
+                        ? other.first_layer
+                        : std::min(row.first_layer, other.first_layer);
+  row.last_layer = std::max(row.last_layer, other.last_layer);
+  row.count += other.count;
+}
+
+// One for each source line; where that is not known, for each finding.
+std::vector<Row> rows_of(FindingKind kind, const std::vector<Finding>& findings,
+                         std::span<const std::string> source_lines) {
+  std::vector<Row> rows;
+  std::map<std::string_view, std::size_t> known;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    const Finding& finding = findings[i];
+    if (finding.is_minor || finding.kind != kind) continue;
+    const std::string_view line =
+        source_lines.empty() ? "" : std::string_view(source_lines[i]);
+    std::size_t at = rows.size();
+    if (!line.empty()) at = known.try_emplace(line, at).first->second;
+    if (at == rows.size()) rows.push_back({.source_line = line});
+    add_to(rows[at],
+           {&finding, line, finding.first_layer, finding.last_layer, 1});
+  }
+  std::ranges::stable_sort(rows, std::greater<>(), [](const Row& row) {
+    return weight_of(*row.greatest);
   });
-  return lines;
+  return rows;
+}
+
+// The worst rows, and one of all others.
+std::vector<Row> shortened(std::vector<Row> rows) {
+  if (rows.size() <= kMostRows + 1) return rows;
+  Row rest;
+  for (const Row& row : std::span(rows).subspan(kMostRows)) add_to(rest, row);
+  rows.resize(kMostRows);
+  rows.push_back(rest);
+  return rows;
+}
+
+// Of UTF-8 without double width.
+std::size_t columns(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80;
+  }));
+}
+
+void append_row(const Row& row, std::string& text) {
+  constexpr std::size_t kWidest = 80;
+  const Finding& worst = *row.greatest;
+  const std::string layers =
+      row.first_layer == row.last_layer
+          ? fmt::format("{}", row.first_layer)
+          : fmt::format("{}-{}", row.first_layer, row.last_layer);
+  const std::string size =
+      row.count == 1 ? size_text(worst)
+                     : fmt::format("greatest in {}: {}", worst.first_layer,
+                                   size_text(worst));
+  const std::string place =
+      fmt::format("{:>15} {:>9} {:>8.3f} {:>8.2f} {:>8.2f}",
+                  counted(row.count, name_of(worst.kind)), layers,
+                  worst.section_z, worst.place.x, worst.place.y);
+  const bool is_wide = columns(place) + columns(size) + 2 > kWidest;
+  text += is_wide ? fmt::format("{}\n      {}\n", place, size)
+                  : fmt::format("{}  {}\n", place, size);
+  if (!row.source_line.empty()) {
+    text += fmt::format("      by {}\n", row.source_line);
+  }
 }
 
 }  // namespace
@@ -92,29 +136,23 @@ std::string finding_counts(const PrintCheck& print) {
 
 std::string finding_table(const PrintCheck& print,
                           std::span<const std::string> source_lines) {
-  const std::vector<Finding>& findings = print.findings;
+  // The worst first: what is lost, what may fail, what needs a support.
+  constexpr std::array<FindingKind, slicer::kFindingKinds> kBySeverity = {
+      FindingKind::kLoosePart, FindingKind::kIsland, FindingKind::kResinTrap,
+      FindingKind::kSuctionCup, FindingKind::kOverhang};
   std::string text = fmt::format("print: {}\n", finding_counts(print));
   const auto out = std::back_inserter(text);
-  const std::vector<Line> lines = lines_of(findings, source_lines);
-  if (!lines.empty()) {
-    fmt::format_to(out, "{:>15} {:>11} {:>10} {:>10} {:>10}  {}\n", "",
-                   "layers", "at z", "x", "y", "size");
-  }
-  const std::size_t listed = std::min(lines.size(), kMostLines);
-  for (const Line& line : std::span(lines).first(listed)) {
-    const Finding& finding = findings[line.greatest];
-    fmt::format_to(out, "{:>15} {:>11} {:>10.4f} {:>10.4f} {:>10.4f}  {}",
-                   counted(line.count, name_of(finding.kind)),
-                   layers_text(finding), finding.section_z, finding.place.x,
-                   finding.place.y, size_text(finding));
-    if (!source_lines.empty() && !source_lines[line.greatest].empty()) {
-      fmt::format_to(out, ", by {}", source_lines[line.greatest]);
+  bool has_head = false;
+  for (const FindingKind kind : kBySeverity) {
+    for (const Row& row :
+         shortened(rows_of(kind, print.findings, source_lines))) {
+      if (!has_head) {
+        fmt::format_to(out, "{:>15} {:>9} {:>8} {:>8} {:>8}  {}\n", "",
+                       "layers", "at z", "x", "y", "size");
+      }
+      has_head = true;
+      append_row(row, text);
     }
-    text += '\n';
-  }
-  if (lines.size() > listed) {
-    fmt::format_to(out, "  … and {}\n",
-                   counted(lines.size() - listed, "more line"));
   }
   if (print.peel.layer > 0) {
     fmt::format_to(out, "peel: {:.4g} mm² at most, in layer {}",

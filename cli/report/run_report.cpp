@@ -220,18 +220,17 @@ std::string report_text(const compiler::Compilation& compilation,
        {"peak_memory_bytes", peak_memory_bytes()}}));
 }
 
-// "print: 2 islands; 'lamina check ring.scad' says where"
-std::string print_line(const compiler::Compilation& compilation) {
-  const auto& print = compilation.report.slice.print;
+// "print: 2 islands; see lamina check ring.scad"
+std::string print_line(const compiler::Report& report,
+                       const std::string& check) {
+  const auto& print = report.slice.print;
   if (!print) return {};
   const std::string counts = finding_counts(*print);
   const bool is_any = std::ranges::any_of(
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
   return is_any
-             ? fmt::format(
-                   "\nprint: {}; 'lamina check {}' says where", counts,
-                   on_one_line(display_path(compilation.request.design.path)))
+             ? fmt::format("\nprint: {}; for where, run:\n  {}", counts, check)
              : fmt::format("\nprint: {}", counts);
 }
 
@@ -243,7 +242,7 @@ std::string machine_line(const compiler::Report& report) {
 
 // "ring.slc: 98 layers, 810 loops, …"
 std::string summary_line(const compiler::Compilation& compilation,
-                         double earlier_seconds) {
+                         const std::string& check, double earlier_seconds) {
   const std::string& output = compilation.request.output.path;
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
@@ -258,7 +257,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       memory_text(report.output_bytes),
       slice.box.is_empty() ? "" : ", " + size_text(slice.box.size()),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
-      machine_line(report), print_line(compilation),
+      machine_line(report), print_line(report, check),
       process_seconds() - earlier_seconds, report.load_seconds,
       report.evaluate_seconds, report.lower_seconds, section_seconds(report),
       slice.sweep_seconds, slice.graph_seconds, slice.output_seconds,
@@ -314,16 +313,16 @@ std::string feature_lines(const compiler::Compilation& compilation) {
   return lines;
 }
 
-int compile_and_report(Session& session, const std::string& report,
+int compile_and_report(Session& session, const Closing& closing,
                        double earlier_seconds) {
   compiler::Compilation& compilation = session.compilation;
   const compiler::Request& request = compilation.request;
   // The report is opened first: no layers are written beside one that cannot be
   // made.
   std::unique_ptr<OutputFile> file;
-  if (!report.empty()) {
-    file.reset(
-        new OutputFile(OutputFile::open(report, compilation.temporary_files)));
+  if (!closing.report.empty()) {
+    file.reset(new OutputFile(
+        OutputFile::open(closing.report, compilation.temporary_files)));
   }
   if (!compiler::compile(compilation)) return kFault;
   if (!request.output.is_of_layers()) return kDone;
@@ -336,7 +335,8 @@ int compile_and_report(Session& session, const std::string& report,
   }
   // The memory in it costs a small run a tenth of its time to find out.
   if (!session.terminal.is_quiet()) {
-    session.terminal.say(summary_line(compilation, earlier_seconds));
+    session.terminal.say(
+        summary_line(compilation, closing.check, earlier_seconds));
   }
   return kDone;
 }

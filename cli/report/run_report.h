@@ -38,12 +38,18 @@ nlohmann::ordered_json print_json(const slicer::PrintCheck& print,
 // The table of thin features that were found, without the last '\n'.
 std::string feature_lines(const compiler::Compilation& compilation);
 
+// What a run says at its end.
+struct Closing {
+  std::string report;  // path of --report; empty: none
+  // The words that look at the same print: "lamina check ring.scad -D n=2".
+  std::string check;
+};
+
 // compile(), and then what a compilation that made layers says of itself: the
 // file of --report, thin features, a closing line. Returns the exit status.
 //
-// report           path; empty: none
 // earlier_seconds  of processor time, before this compilation
-int compile_and_report(Session& session, const std::string& report,
+int compile_and_report(Session& session, const Closing& closing,
                        double earlier_seconds = 0);
 
 }  // namespace lamina::cli

@@ -123,6 +123,10 @@ Printer find_printer(const std::string& name_or_file,
   return printer;
 }
 
+bool fits(const Printer& printer, Vec3 size) {
+  return fits(size, printer.build_volume());
+}
+
 GeometryError too_large(const Printer& printer, Vec3 size) {
   std::string words = fmt::format(
       "The design is {:.6g} x {:.6g} x {:.6g} mm, larger than what {} builds: "

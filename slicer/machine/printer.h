@@ -58,6 +58,9 @@ std::vector<Printer> known_printers();
 Printer find_printer(const std::string& name_or_file,
                      const FileAccess& access = kAllFiles);
 
+// Whether it builds a part of that size along the axes of the design [mm].
+bool fits(const Printer& printer, Vec3 size);
+
 // Says that a part is larger than what the printer builds, and which known
 // printers are large enough.
 //

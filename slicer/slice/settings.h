@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ldni/image/paper_slicer.h"
+#include "slicer/check/print/print_rules.h"
 #include "slicer/contour/deviation.h"
 
 namespace lamina::slicer {
@@ -41,9 +42,7 @@ struct Settings {
   // Walls and gaps thinner than this are searched for, in faithful contours
   // only [mm]; 0: there is no search.
   double min_feature = 0;
-  // How far a layer may stand out over the one below before that is reported
-  // [mm]; 0: as far as a surface of 45° does.
-  double self_supporting = 0;
+  PrintRules print;
   bool finds_makers = false;  // of what the layer graph finds: its leaves
   ContourMode contour = ContourMode::kFaithful;
   ldni::PaperOptions paper;  // for ContourMode::kPaper

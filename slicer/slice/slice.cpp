@@ -73,9 +73,10 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 }
 
 [[noreturn]] void throw_empty(const SliceReport& report) {
-  throw GeometryError(report.losses.vanished_regions > 0
-                          ? "Nothing is left of the design after compensation."
-                          : "Current top level object is empty.");
+  if (report.losses.vanished_regions > 0) {
+    throw GeometryError("Nothing is left of the design after compensation.");
+  }
+  throw EmptyDesign();
 }
 
 // Throws where the design stands between the heights at which layers are cut.
@@ -160,7 +161,7 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   sink.begin(scene.box);
   sink.expect(grid.layer_count());
   std::optional<LayerGraph> graph;
-  if (makes_whole_print(settings)) graph.emplace(settings.self_supporting);
+  if (makes_whole_print(settings)) graph.emplace(settings.print);
   run_slice_job(plan, grid, settings, sink,
                 {features ? &*features : nullptr, graph ? &*graph : nullptr},
                 report);

@@ -22,6 +22,11 @@
 
 namespace lamina::slicer {
 
+// Thrown where there is nothing to slice, in OpenSCAD's words.
+struct EmptyDesign : GeometryError {
+  EmptyDesign() : GeometryError("Current top level object is empty.") {}
+};
+
 // What a job did (`--report`). Times are processor seconds summed over
 // threads.
 struct SliceReport {

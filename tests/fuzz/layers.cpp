@@ -55,7 +55,7 @@ std::vector<slicer::Layer> read_layers(const std::string& path) {
   try_to([&] {
     const slicer::Inspection found =
         compiler::look_at_file(
-            path, {.finds_defects = true, .min_feature = kMinFeature}, 0,
+            path, {.finds_defects = true, .min_feature = kMinFeature}, {},
             FileAccess())
             .found;
     cli::inspection_text(found, cli::ListedLayers::kAll);

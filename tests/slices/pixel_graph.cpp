@@ -162,7 +162,11 @@ void PixelGraph::judge_islands(const std::vector<Finding>& findings,
   }
   std::set<std::uint32_t> found;
   for (const Finding& finding : findings) {
-    if (finding.kind != FindingKind::kIsland) continue;
+    // A loose part begins as one.
+    if (finding.kind != FindingKind::kIsland &&
+        finding.kind != FindingKind::kLoosePart) {
+      continue;
+    }
     const std::size_t pixel = pixel_at(finding.first_layer - 1, finding.place);
     found.insert(wide[pixel]);
     if (narrow[pixel] != 0 && is_narrow_held[narrow[pixel]] != 0) {

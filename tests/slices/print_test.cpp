@@ -40,7 +40,7 @@ Sliced slice(const std::string& text, double thickness = 0.1,
   const support::Design design = support::Design::from_text(text);
   slicer::Settings settings;
   settings.layer_thickness = thickness;
-  settings.self_supporting = self_supporting;
+  settings.print.self_supporting = self_supporting;
   settings.finds_makers = true;
   support::LayerList list;
   Diagnostics diagnostics;
@@ -87,16 +87,14 @@ TEST(PrintCheck, FindsNothingInACube) {
 
 TEST(PrintCheck, FindsAFloatingCube) {
   const PrintCheck print = check("cube(10); translate([20, 0, 5]) cube(4);");
-  EXPECT_EQ(counts(print), "1 island, 1 loose part");
-  const Finding& island = only(print, FindingKind::kIsland);
-  EXPECT_EQ(island.first_layer, 51U);
-  EXPECT_EQ(island.last_layer, 90U);
-  EXPECT_FALSE(island.is_joined);
-  EXPECT_NEAR(island.area, 16, 1e-9);
-  EXPECT_NEAR(island.place.x, 22, 0.3);
-  EXPECT_NEAR(island.place.y, 2, 0.3);
-  EXPECT_EQ(island.instance, 1U);
+  EXPECT_EQ(counts(print), "1 loose part");
   const Finding& part = only(print, FindingKind::kLoosePart);
+  EXPECT_EQ(part.first_layer, 51U);
+  EXPECT_EQ(part.last_layer, 90U);
+  EXPECT_NEAR(part.area, 16, 1e-9);
+  EXPECT_NEAR(part.place.x, 22, 0.3);
+  EXPECT_NEAR(part.place.y, 2, 0.3);
+  EXPECT_EQ(part.instance, 1U);
   EXPECT_NEAR(part.volume, 64, 1e-9);
   EXPECT_NEAR(part.box.low.z, 5, 1e-9);
   EXPECT_NEAR(part.box.high.z, 9, 1e-9);
@@ -246,11 +244,28 @@ TEST(PrintCheck, FindsNothingInUprightAndRoundWalls) {
 TEST(PrintCheck, TakesAContactThatIsNoneForNone) {
   // Upright walls that only touch, and a gap of a tenth of a micrometre.
   EXPECT_EQ(check("cube(5); translate([5, 0, 5]) cube(5);")
-                .count(FindingKind::kIsland),
+                .count(FindingKind::kLoosePart),
             1U);
   EXPECT_EQ(check("cube(5); translate([4.9, 0, 5]) cube(5);")
-                .count(FindingKind::kIsland),
+                .count(FindingKind::kLoosePart),
             0U);
+}
+
+// What is smaller than a pixel is minor, whatever it is.
+TEST(PrintCheck, CountsWhatIsSmallerThanAPixelApart) {
+  const std::string text =
+      "cube(5); translate([8, 0, 2]) cube([0.04, 0.04, 1]);";
+  EXPECT_EQ(counts(check(text)), "1 loose part");
+  const support::Design design = support::Design::from_text(text);
+  slicer::Settings settings;
+  settings.print.least_area = 0.05 * 0.05;
+  slicer::LayerDrain drain;
+  Diagnostics diagnostics;
+  const auto report = slicer::slice(
+      design.scene(), slicer::plan_layers(design.scene(), settings), settings,
+      drain, diagnostics);
+  EXPECT_EQ(counts(*report.print), "");
+  EXPECT_EQ(report.print->count_minor(), 1U);
 }
 
 // --- Laws -------------------------------------------------------------------
@@ -397,7 +412,10 @@ TEST(PrintCheck, LosesIslandsOnPillars) {
   const PrintCheck print = check(kFigure);
   std::string pillars = kFigure;
   for (const Finding& finding : print.findings) {
-    if (finding.kind != FindingKind::kIsland) continue;
+    if (finding.kind != FindingKind::kIsland &&
+        finding.kind != FindingKind::kLoosePart) {
+      continue;
+    }
     pillars += fmt::format("translate([{}, {}, 0]) cylinder(d = 0.5, h = {});",
                            finding.place.x, finding.place.y, finding.section_z);
   }

@@ -22,7 +22,7 @@ Inspector::Inspector(const InspectOptions& options)
     finder_.emplace(options.min_feature);
     collector_.emplace(options.min_feature, std::vector<std::uint32_t>{});
   }
-  if (options.makes_graph) graph_.emplace(options.self_supporting);
+  if (options.makes_graph) graph_.emplace(options.print);
 }
 
 void Inspector::add_defect(std::string words) {

@@ -51,7 +51,7 @@ struct InspectOptions {
   double min_feature = 0;
   // Whether a layer graph is made; of a design the slicer makes it.
   bool makes_graph = true;
-  double self_supporting = 0;  // as of Settings
+  PrintRules print;
 };
 
 // Takes layers in their order and looks at them one by one.

@@ -138,8 +138,7 @@ double gap_between(double bottom_below, double top_below, double bottom,
   return std::abs(gap) > slack ? gap : 0;
 }
 
-LayerGraph::LayerGraph(double self_supporting)
-    : self_supporting_(self_supporting) {
+LayerGraph::LayerGraph(const PrintRules& rules) : rules_(rules) {
   Component outside;
   outside.is_anchored = true;
   components_.push_back(outside);
@@ -170,7 +169,7 @@ void LayerGraph::lay(const Layer& layer, const LayerOverlay* overlay) {
   if (overlay == nullptr) {
     sweep_.start(last_);
     sweep_.lay_over(layer.contours,
-                    reach_of(self_supporting_, layer.section_z - last_z_),
+                    reach_of(rules_.self_supporting, layer.section_z - last_z_),
                     own_overlay_);
     overlay = &own_overlay_;
   }
@@ -392,8 +391,8 @@ void LayerGraph::add_cup(const Component& component) {
 void LayerGraph::take_overhangs(const Layer& layer,
                                 const LayerOverlay& overlay) {
   const std::size_t before = patches_.size();
-  const Vec2 margin(kSamePlace / 2 +
-                    reach_of(self_supporting_, layer.section_z - last_z_));
+  const Vec2 margin(kSamePlace / 2 + reach_of(rules_.self_supporting,
+                                              layer.section_z - last_z_));
   for (const Overhang& overhang : overlay.overhangs) {
     Finding finding = begin_finding(FindingKind::kOverhang, layer);
     finding.area = overhang.area;
@@ -447,17 +446,14 @@ PrintCheck LayerGraph::finish() {
       join_voids(root, kOpen);
     }
   }
+  std::vector<bool> is_known(findings_.size());  // as another finding
   for (std::uint32_t i = 1; i < components_.size(); ++i) {
     Component& component = components_[i];
     if (component.parent != i || component.is_anchored) continue;
     Finding& finding = component.finding;
     if (finding.kind == FindingKind::kLoosePart) {
-      // Its island was never joined.
-      if (component.island != kNone) {
-        findings_[component.island].last_layer = finding.last_layer;
-        findings_[component.island].top = finding.top;
-        findings_[component.island].box = finding.box;
-      }
+      // Its island was never joined, and is the same.
+      if (component.island != kNone) is_known[component.island] = true;
       findings_.push_back(finding);
     } else if (component.touches_bed) {
       add_cup(component);
@@ -474,11 +470,20 @@ PrintCheck LayerGraph::finish() {
         finding.area < kLeastOverhangArea && finding.distance < kLeastOverhang;
     findings_.push_back(finding);
   }
-  std::ranges::stable_sort(findings_, {}, [](const Finding& finding) {
+  PrintCheck check{.findings = {}, .peel = peel_};
+  for (std::size_t i = 0; i < findings_.size(); ++i) {
+    if (i < is_known.size() && is_known[i]) continue;
+    Finding& finding = check.findings.emplace_back(findings_[i]);
+    const bool has_volume = finding.kind != FindingKind::kIsland &&
+                            finding.kind != FindingKind::kOverhang;
+    finding.is_minor = finding.is_minor || finding.area < rules_.least_area ||
+                       (has_volume && finding.volume < rules_.least_volume);
+  }
+  std::ranges::stable_sort(check.findings, {}, [](const Finding& finding) {
     return std::tuple(finding.first_layer, finding.kind, finding.place.x,
                       finding.place.y);
   });
-  return {std::move(findings_), peel_};
+  return check;
 }
 
 }  // namespace lamina::slicer

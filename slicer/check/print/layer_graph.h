@@ -9,7 +9,8 @@
 //
 //   island       solid region above the first layer with no arc downwards:
 //                resin in mid-air
-//   loose part   component of solid that reaches neither bed nor another one
+//   loose part   component of solid that reaches neither bed nor another one;
+//                where it begins is no island besides
 //   overhang     part of a solid region that is farther than its reach from
 //                all that is solid below
 //   suction cup  void that no way leads out of through the layers built so far.
@@ -32,6 +33,7 @@
 #include "base/vec.h"
 #include "plane/cell_grid.h"
 #include "slicer/check/print/layer_overlay.h"
+#include "slicer/check/print/print_rules.h"
 #include "slicer/check/print/touching_boxes.h"
 #include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/layer.h"
@@ -109,8 +111,7 @@ double gap_between(double bottom_below, double top_below, double bottom,
 
 class LayerGraph {
  public:
-  // self_supporting  as of reach_of()
-  explicit LayerGraph(double self_supporting);
+  explicit LayerGraph(const PrintRules& rules);
 
   // Takes the next layer.
   //
@@ -148,7 +149,7 @@ class LayerGraph {
   void add_cup(const Component& component);
   void join_overhangs(std::uint32_t a, std::uint32_t b);
 
-  const double self_supporting_;
+  const PrintRules rules_;
   OverlaySweep sweep_;
   LayerOverlay own_overlay_;
   std::uint32_t layers_ = 0;

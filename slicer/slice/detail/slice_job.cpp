@@ -54,7 +54,7 @@ class Worker {
       : plan_(plan),
         grid_(grid),
         sink_(sink),
-        self_supporting_(settings.self_supporting),
+        self_supporting_(settings.print.self_supporting),
         compensation_(settings.compensation),
         simplifier_(settings.tolerance) {
     if (settings.min_feature > 0) thin_finder_.emplace(settings.min_feature);

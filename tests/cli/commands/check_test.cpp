@@ -1,5 +1,7 @@
 // lamina check, and what runs say of the print.
 
+#include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -33,9 +35,10 @@ TEST(Check, NamesTheLineOfAnIsland) {
   folder.write("a.scad", kFloating);
   const auto result = run(folder, {"check", "a.scad"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(has(result.output, "print: 1 island, 1 loose part\n"))
-      << result.output;
-  EXPECT_TRUE(has(result.output, "16 mm², never joined, by a.scad:2:23\n"))
+  EXPECT_TRUE(has(result.output, "print: 1 loose part\n")) << result.output;
+  EXPECT_TRUE(has(result.output,
+                  "64 mm³, 16 mm² at most\n      by "
+                  "a.scad:2:23\n"))
       << result.output;
 }
 
@@ -43,9 +46,7 @@ TEST(Check, AllowsWhatItIsTold) {
   const TemporaryFolder folder;
   folder.write("a.scad", kFloating);
   EXPECT_EQ(run(folder, {"check", "a.scad", "--allow", "islands"}).status, 1);
-  EXPECT_EQ(run(folder, {"check", "a.scad", "--allow", "islands", "--allow",
-                         "loose-parts"})
-                .status,
+  EXPECT_EQ(run(folder, {"check", "a.scad", "--allow", "loose-parts"}).status,
             0);
 }
 
@@ -54,7 +55,8 @@ TEST(Check, SaysTheSameOfAFileAndOfItsDesign) {
   folder.write("a.scad", kFloating);
   const json of_design =
       json::parse(run(folder, {"check", "a.scad", "--json"}).output);
-  for (const std::string format : {"slc", "cli", "svg", "3mf", "layers.json"}) {
+  for (const std::string format :
+       {"slc", "cli", "svg", "slices.3mf", "layers.json"}) {
     ASSERT_EQ(run(folder, {"a.scad", "-q", "-o", "a." + format}).status, 0);
     const auto result = run(folder, {"check", "a." + format, "--json"});
     EXPECT_EQ(result.status, 1) << format;
@@ -75,16 +77,74 @@ TEST(Check, IsInSummariesReportsAndInspections) {
   folder.write("a.scad", kFloating);
   const auto result = run(folder, {"a.scad", "--report", "a.json"});
   EXPECT_TRUE(has(result.errors,
-                  "print: 1 island, 1 loose part; 'lamina check a.scad' says "
-                  "where\n"))
+                  "print: 1 loose part; for where, run:\n"
+                  "  lamina check a.scad\n"))
       << result.errors;
   const json report = json::parse(read_file(folder.file("a.json")));
-  EXPECT_EQ(report.at("print").at("findings")[0].at("kind"), "island");
+  EXPECT_EQ(report.at("print").at("findings")[0].at("kind"), "loose part");
   EXPECT_EQ(report.at("print").at("findings")[0].at("made_by")[0].at("place"),
             "a.scad:2:23");
   EXPECT_EQ(report.at("print").at("peel").at("jump_layer"), 101);
-  EXPECT_TRUE(has(run(folder, {"inspect", "a.slc"}).output,
-                  "print: 1 island, 1 loose part\n"));
+  EXPECT_TRUE(
+      has(run(folder, {"inspect", "a.slc"}).output, "print: 1 loose part\n"));
+}
+
+// The run's own words, as a shell takes them.
+TEST(Check, IsNamedWithTheOptionsOfTheRun) {
+  const TemporaryFolder folder;
+  folder.write("a b.scad",
+               "size = 1; cube(10); translate([20, 0, 5]) cube(4);");
+  const auto result =
+      run(folder, {"a b.scad", "-o", "x/a.slc", "-D", "size=[1, 2]", "--layer",
+                   "0.1", "--place-on-bed", "--printer", "elegoo-mars-3"});
+  for (const char* const words :
+       {"\n  lamina check 'a b.scad' ", " -D 'size=[1, 2]'", " --layer 0.1",
+        " --place-on-bed", " --printer elegoo-mars-3"}) {
+    EXPECT_TRUE(has(result.errors, words)) << words << '\n' << result.errors;
+  }
+  EXPECT_FALSE(has(result.errors, "check 'a b.scad' -o")) << result.errors;
+}
+
+TEST(Check, SaysWhatFitsWhatItTakesAndWhatIsThin) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(10);");
+  folder.write("b.scad", "cube([1, 10, 400]); cube([10, 0.2, 5]);");
+  const auto result =
+      run(folder, {"check", "a.scad", "b.scad", "--printer", "elegoo-mars-3",
+                   "--material", "gold-18k-yellow", "--min-feature", "0.5"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(
+      has(result.output, "a.scad\nfits: 10 x 10 x 10 mm on Elegoo Mars 3\n"))
+      << result.output;
+  EXPECT_TRUE(has(result.output, "b.scad\ndoes not fit: The design is "))
+      << result.output;
+  EXPECT_TRUE(has(result.output, "1 wall")) << result.output;
+  EXPECT_EQ(folder.entry_count(), 2U);
+  EXPECT_EQ(
+      run(folder, {"check", "a.scad", "--printer", "elegoo-mars-3"}).status, 0);
+}
+
+// A row for each source line, then one for what is left; 80 columns.
+TEST(Check, ListsTheWorstFirst) {
+  const TemporaryFolder folder;
+  folder.write(
+      "a.scad",
+      "cube([200, 10, 1]); for (i = [1 : 12]) translate([10 * i, 0, 5])"
+      "cube([2, 2, i]);");
+  ASSERT_EQ(run(folder, {"a.scad", "-q", "-o", "a.slc"}).status, 0);
+  const std::string of_design = run(folder, {"check", "a.scad"}).output;
+  EXPECT_TRUE(has(of_design, " 12 loose parts   101-340 ")) << of_design;
+  EXPECT_TRUE(has(of_design, "greatest in 101: 48 mm³")) << of_design;
+  const std::string of_file = run(folder, {"check", "a.slc"}).output;
+  EXPECT_LT(of_file.find(" 48 mm³"), of_file.find(" 44 mm³")) << of_file;
+  EXPECT_TRUE(has(of_file, " 7 loose parts   101-240 ")) << of_file;
+  std::istringstream lines(of_file + of_design);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(
+        std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }),
+        80)
+        << line;
+  }
 }
 
 // Its area is the same in all layers, but for rounding.
