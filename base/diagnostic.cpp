@@ -99,6 +99,18 @@ std::string shown_message(const Diagnostic& diagnostic) {
              : with_display_paths(diagnostic.message);
 }
 
+// Where a file ends, behind its last letter. OpenSCAD's parser finds the end
+// below that.
+SourceRange within_file(SourceRange range) {
+  if (!range.is_written() || range.is_defined_by_option()) return range;
+  const std::string_view all = range.source->text();
+  const std::string_view file = all.substr(0, all.rfind(kEndOfFile));
+  const auto end =
+      static_cast<std::uint32_t>(file.find_last_not_of(" \t\r\n") + 1);
+  if (range.begin < end) return range;
+  return {range.source, end, end};
+}
+
 void append_terminal_text(std::string& text, SourceRange range,
                           std::string_view prefix, std::string_view message) {
   if (range.is_defined_by_option()) {
@@ -254,13 +266,17 @@ std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
 
 std::string caret_text(const Diagnostic& diagnostic) {
   if (diagnostic.audience == Audience::kEcho) return "";
+  const SourceRange range = within_file(diagnostic.range);
   std::string text;
-  append_terminal_text(text, diagnostic.range,
-                       prefix_of(diagnostic.severity).terminal,
+  append_terminal_text(text, range, prefix_of(diagnostic.severity).terminal,
                        shown_message(diagnostic));
   for (const auto* notes : {&diagnostic.notes, &diagnostic.hints}) {
     for (const Note& note : *notes) {
-      append_terminal_text(text, note.range,
+      const SourceRange place = within_file(note.range);
+      const bool is_shown = place.source == range.source &&
+                            place.begin == range.begin &&
+                            place.end == range.end;
+      append_terminal_text(text, is_shown ? SourceRange() : place,
                            "note: ", with_display_paths(note.message));
     }
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -21,6 +22,7 @@
 #include "cli/process/process_watch.h"
 #include "cli/process/run_on_stack.h"
 #include "cli/process/streams.h"
+#include "cli/report/session.h"
 
 namespace lamina::cli {
 namespace {
@@ -87,24 +89,37 @@ void expect_signals(int /*argc*/, char** /*argv*/, char** /*environment*/) {
 
 // Returns the exit status.
 int run_program(int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  // As other programs have them: help, help COMMAND, version.
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  if (first == "version") words = {argv[0], "--version"};
+  if (first == "help") {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
   std::unique_ptr<Command> command;
   for (const NamedCommand& named : kNamedCommands) {
-    if (argc > 1 && argv[1] == named.name) command = named.make();
+    if (words.size() > 1 && words[1] == named.name) command = named.make();
   }
   // A named command's own words begin behind its name.
-  const int skipped = command ? 1 : 0;
+  const std::size_t skipped = command ? 1 : 0;
   if (!command) command = make_slice_command();
   ProcessLimits limits;
   FileAccess access;
-  if (const auto status = read_words(*command, limits, access, argc - skipped,
-                                     argv + skipped)) {
+  if (const auto status = read_words(*command, limits, access,
+                                     static_cast<int>(words.size() - skipped),
+                                     words.data() + skipped)) {
     return *status;
   }
   restrict_process(access);
   TemporaryFiles temporary_files(access);
   ProcessWatch watch(limits);
   return run_on_stack(temporary_files, watch, [&](std::size_t stack) {
-    return command->run({temporary_files, stack, watch});
+    // A session may fail to begin.
+    Terminal terminal(false);
+    return run_caught(terminal, {}, [&] {
+      return command->run({temporary_files, stack, watch});
+    });
   });
 }
 

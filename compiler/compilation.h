@@ -76,6 +76,7 @@ struct Compilation {
   // Products of the first passes; the scene points into the tree.
   LoadedDesign design;
   csg::Tree tree;
+  std::vector<Note> emptiness;  // why the design is nothing, if it is
   Report report;
   const std::chrono::steady_clock::time_point begin =
       std::chrono::steady_clock::now();

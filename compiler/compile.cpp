@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "compiler/layer_output.h"
 #include "compiler/make_rule.h"
 #include "compiler/stage_text.h"
+#include "csg/lower/emptiness.h"
 
 namespace lamina::compiler {
 namespace {
@@ -32,6 +34,18 @@ auto timed(double& seconds, const Pass& pass) {
   auto product = pass();
   seconds += now() - begin;
   return product;
+}
+
+// Does what finds that a design is nothing, and says why it is.
+template <typename Work>
+auto explained(const Compilation& c, const Work& work) {
+  try {
+    return work();
+  } catch (const slicer::EmptyDesign& empty) {
+    Diagnostic fault = empty.diagnostic();
+    fault.hints = c.emptiness;
+    throw GeometryError(std::move(fault));
+  }
 }
 
 void load_design(Compilation& c) {
@@ -187,8 +201,9 @@ csg::Lowered lower_tree(Compilation& c) {
   csg::Lowered lowered = timed(c.report.lower_seconds, [&] {
     return lower(c.tree, c.request, c.readers, c.diagnostics);
   });
+  c.emptiness = csg::why_empty(c.tree);
   c.tree.drop_nodes();
-  judge(lowered, c.request, c.diagnostics);
+  explained(c, [&] { judge(lowered, c.request, c.diagnostics); });
   return lowered;
 }
 
@@ -201,11 +216,14 @@ slicer::SliceReport make_layers(Compilation& c, const csg::Lowered& lowered,
                                 const slicer::Settings& settings,
                                 slicer::LayerSink& sink) {
   // Plan: all layers must be known before the first one is cut.
-  const ldni::LayerGrid grid =
-      timed(c.report.plan_seconds, [&] { return plan(lowered, settings); });
+  const ldni::LayerGrid grid = timed(c.report.plan_seconds, [&] {
+    return explained(c, [&] { return plan(lowered, settings); });
+  });
 
   // Slice: in parallel, and in order.
-  return slice(lowered, grid, settings, sink, c.on_progress, c.diagnostics);
+  return explained(c, [&] {
+    return slice(lowered, grid, settings, sink, c.on_progress, c.diagnostics);
+  });
 }
 
 }  // namespace lamina::compiler

@@ -230,10 +230,14 @@ csg::Lowered lower(const csg::Tree& tree, const Request& request,
 
 void judge(const csg::Lowered& lowered, const Request& request,
            Diagnostics& diagnostics) {
-  if (lowered.is_empty())
-    throw GeometryError("Current top level object is empty.");
+  if (lowered.is_empty()) throw slicer::EmptyDesign();
   if (lowered.outline() != nullptr && !holds_outlines(request.output.format)) {
-    throw GeometryError("Current top level object is not a 3D object.");
+    Diagnostic fault{
+        Severity::kError, {}, "Current top level object is not a 3D object."};
+    fault.hints = hint_of(
+        "linear_extrude(height) makes a solid of an outline, and -o with .svg "
+        "writes the outline");
+    throw GeometryError(fault);
   }
   warn_of_geometry(lowered, request, diagnostics);
 }

@@ -1,8 +1,10 @@
 #include "parser/loader.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -42,16 +44,26 @@ bool is_open(const std::string& path, std::span<const Source* const> open) {
   });
 }
 
-// A hint for a file that is not there: one of the same kind beside it.
+bool are_similar(std::string_view a, std::string_view b) {
+  return a == b || !most_similar(b, std::array{a}).empty();
+}
+
+// A hint for a file that is not there: one beside it whose name and kind are
+// similar, each by itself.
 std::string similar_file(const std::string& path, const FileAccess& access) {
   using Names = std::vector<std::string>;
   const fs::path wanted(path);
   const std::string folder =
       wanted.has_parent_path() ? wanted.parent_path().string() : ".";
   Names names;
+  const std::string stem = wanted.stem().string();
+  const std::string extension = wanted.extension().string();
   for (const std::string& name : access.list(folder).value_or(Names())) {
-    if (fs::path(name).extension() != wanted.extension()) continue;
-    names.push_back((wanted.parent_path() / name).string());
+    const fs::path file(name);
+    if (are_similar(file.stem().string(), stem) &&
+        are_similar(file.extension().string(), extension)) {
+      names.push_back((wanted.parent_path() / name).string());
+    }
   }
   std::sort(names.begin(), names.end());
   const std::vector<std::string_view> all(names.begin(), names.end());
@@ -147,11 +159,16 @@ const Source* Loader::open_include(const std::string& path) {
 
 ast::Program Loader::load(const std::string& path) {
   access_.require(path);
-  std::optional<std::string> text = read(path);
+  errno = 0;
+  std::optional<std::string> text =
+      path == "-" ? access_.read("/dev/stdin") : read(path);
+  if (!text && errno == 0) text = access_.read(path);  // a pipe
   if (!text) {
     Diagnostic missing{
         Severity::kError, {}, "Can't open input file '" + path + "'!"};
-    missing.hints = hint_of(similar_file(path, access_));
+    if (errno != 0) missing.hints = hint_of(std::strerror(errno));
+    const std::string similar = similar_file(path, access_);
+    if (!similar.empty()) missing.hints.push_back({{}, similar});
     throw FileError(std::move(missing));
   }
   add_file(path);

@@ -148,9 +148,10 @@ void check_machine(const std::string& path, int error) {
     case ESTALE:
       throw FileError(fmt::format(
           "Can't read file '{}': it changed while it was read.", path));
+    case ENOMEM:
+      throw std::bad_alloc();
     case EIO:
     case ENOSPC:
-    case ENOMEM:
     case EMFILE:
     case ENFILE:
       throw FileError(

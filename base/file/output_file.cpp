@@ -10,32 +10,31 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/diagnostic.h"
 #include "base/file/detail/planted_link.h"
 #include "base/file/open_file.h"
 
 namespace lamina {
-namespace {
 
-[[noreturn]] void fail(const std::string& path, int error) {
-  throw FileError(fmt::format("Can't write '{}': {}",
-                              path == "-" ? "standard output" : path,
-                              std::strerror(error)));
+void fail_to_write(const std::string& path, int error) {
+  const bool is_output = path == "-";
+  const std::string words =
+      fmt::format("Can't write '{}': {}", is_output ? "standard output" : path,
+                  std::strerror(error));
+  if (is_output && error == EPIPE) throw ReaderGone(words);
+  throw FileError(words);
 }
-
-}  // namespace
 
 OutputFile OutputFile::open(std::string path, TemporaryFiles& temporary_files) {
   auto buffer = std::make_unique_for_overwrite<char[]>(kBufferSize);
   OutputPlace place;
   if (path != "-") place = temporary_files.file_access().find_output(path);
-  if (place.error != 0) fail(path, place.error);
+  if (place.error != 0) fail_to_write(path, place.error);
   const bool is_there = place.there.has_value();
   const mode_t mode = is_there ? place.there->st_mode : S_IFREG;
-  if (S_ISDIR(mode)) fail(path, EISDIR);
+  if (S_ISDIR(mode)) fail_to_write(path, EISDIR);
   const bool is_strangers =
       is_there && !S_ISREG(mode) && is_planted_at(place.path, *place.there);
-  if (is_strangers) fail(path, EACCES);
+  if (is_strangers) fail_to_write(path, EACCES);
   TemporaryFiles::File temporary;
   if (path == "-" || !S_ISREG(mode)) {
     place = {};
@@ -43,11 +42,11 @@ OutputFile OutputFile::open(std::string path, TemporaryFiles& temporary_files) {
   } else {
     if (is_there && ::faccessat(AT_FDCWD, place.path.c_str(), W_OK,
                                 AT_SYMLINK_NOFOLLOW) != 0) {
-      fail(path, errno);
+      fail_to_write(path, errno);
     }
     temporary = temporary_files.open_file(place.path);
   }
-  if (temporary.file < 0) fail(path, errno);
+  if (temporary.file < 0) fail_to_write(path, errno);
   return {std::move(path), std::move(place), temporary_files,
           std::move(temporary), std::move(buffer)};
 }
@@ -65,7 +64,7 @@ void OutputFile::write(std::string_view bytes) {
 
 void OutputFile::flush() {
   const int error = write_all(temporary_.file, {buffer_.get(), used_});
-  if (error != 0) fail(path_, error);
+  if (error != 0) fail_to_write(path_, error);
   flushed_ += used_;
   used_ = 0;
 }
@@ -74,7 +73,7 @@ void OutputFile::patch(std::uint64_t offset, std::string_view bytes) {
   flush();
   const int error =
       write_all(temporary_.file, bytes, static_cast<off_t>(offset));
-  if (error != 0) fail(path_, error);
+  if (error != 0) fail_to_write(path_, error);
 }
 
 void OutputFile::insert(std::uint64_t offset, std::string_view bytes) {
@@ -87,7 +86,7 @@ void OutputFile::insert(std::uint64_t offset, std::string_view bytes) {
   }
   patch(offset, bytes);
   flushed_ += bytes.size();
-  if (::lseek(temporary_.file, 0, SEEK_END) < 0) fail(path_, errno);
+  if (::lseek(temporary_.file, 0, SEEK_END) < 0) fail_to_write(path_, errno);
 }
 
 std::string OutputFile::read(std::uint64_t offset, std::size_t size) {
@@ -97,7 +96,7 @@ std::string OutputFile::read(std::uint64_t offset, std::size_t size) {
         ::pread(temporary_.file, bytes.data() + done, size - done,
                 static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) fail(path_, count < 0 ? errno : EIO);
+    if (count <= 0) fail_to_write(path_, count < 0 ? errno : EIO);
     done += static_cast<std::size_t>(count);
   }
   return bytes;
@@ -109,12 +108,13 @@ void OutputFile::commit() {
     const int target = path_ == "-"
                            ? STDOUT_FILENO
                            : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (target < 0) fail(path_, errno);
+    if (target < 0) fail_to_write(path_, errno);
     const int error = copy_bytes(temporary_.file, target);
-    if (error != 0) fail(path_, error);
-    if (target != STDOUT_FILENO && ::close(target) != 0) fail(path_, errno);
+    if (error != 0) fail_to_write(path_, error);
+    if (target != STDOUT_FILENO && ::close(target) != 0)
+      fail_to_write(path_, errno);
   } else if (!temporary_files_.commit_file(temporary_, place_, path_)) {
-    fail(path_, errno);
+    fail_to_write(path_, errno);
   }
   temporary_files_.discard_file(temporary_);
 }

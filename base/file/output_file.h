@@ -15,9 +15,18 @@
 #include <utility>
 
 #include "base/file/file_access.h"
+#include "base/diagnostic.h"
 #include "base/file/temporary_files.h"
 
 namespace lamina {
+
+// Thrown where nobody reads standard output any more, as behind `| head`.
+struct ReaderGone : FileError {
+  using FileError::FileError;
+};
+
+// Throws for what write_all() returned; "-" is standard output.
+[[noreturn]] void fail_to_write(const std::string& path, int error);
 
 class OutputFile {
  public:

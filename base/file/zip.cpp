@@ -86,7 +86,9 @@ struct Directory {
 Directory find_directory(std::string_view bytes) {
   const std::size_t end = bytes.rfind(kEndMark);
   if (end == std::string_view::npos || bytes.size() - end < kEndBytes) {
-    throw FormatError("ZIP archive has no directory");
+    throw FormatError(bytes.starts_with("PK")
+                          ? "ZIP archive is cut off: it has no directory"
+                          : "not a ZIP archive");
   }
   const Record record(bytes, end, kEndMark, kEndBytes);
   std::uint64_t count = record.number16(10);

@@ -66,13 +66,14 @@ void exit_soon(int status) {
 // Stands for abort(): has the waiting thread end the process.
 [[noreturn]] void tell_lost_exception() {
   sigval what{};
-  what.sival_int = kLostError;
+  // So, too, where memory is lacking for the exception itself: there is none.
+  what.sival_int = kLostMemory;
   try {
     // cppcheck-suppress rethrowNoCurrentException ; asked just before
     if (std::current_exception()) throw;
   } catch (const std::bad_alloc&) {
-    what.sival_int = kLostMemory;
   } catch (...) {
+    what.sival_int = kLostError;
   }
   // To the process: all threads but the waiting one block it.
   ::sigqueue(::getpid(), kLostSignal, what);

@@ -1,13 +1,10 @@
 #include "cli/process/streams.h"
 
-#include <cstring>
-
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include "base/diagnostic.h"
 #include "base/file/open_file.h"
+#include "base/file/output_file.h"
 #include "base/text.h"
 
 namespace lamina::cli {
@@ -22,9 +19,7 @@ void open_missing_streams() {
 
 void print_out(std::string_view text) {
   const int error = write_all(STDOUT_FILENO, without_controls(text));
-  if (error == 0) return;
-  throw FileError(
-      fmt::format("Can't write 'standard output': {}", std::strerror(error)));
+  if (error != 0) fail_to_write("-", error);
 }
 
 void print_error(std::string_view text) { write_all(STDERR_FILENO, text); }

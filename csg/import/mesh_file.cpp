@@ -1,7 +1,9 @@
 #include "csg/import/mesh_file.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
 
@@ -10,6 +12,7 @@
 #include "base/check.h"
 #include "base/file/format_error.h"
 #include "base/letter_case.h"
+#include "base/text.h"
 
 namespace lamina::csg {
 namespace {
@@ -19,7 +22,15 @@ Placing placing_of(const ImportParams& params) {
   return params.rules == Language::k2021 ? Placing::kNone : Placing::kOpenScad;
 }
 
+// A page that a browser saved in place of the file that it links to.
+bool is_web_page(std::string_view bytes) {
+  constexpr std::size_t kHead = 64;
+  const std::string head = lower_case(trim(bytes.substr(0, kHead)));
+  return head.starts_with("<!doctype html") || head.starts_with("<html");
+}
+
 PlacedMeshes parse(std::string_view bytes, const ImportParams& params) {
+  if (is_web_page(bytes)) throw FormatError("a web page in place of a mesh");
   PlacedMeshes meshes;
   std::vector<RawMesh>& bodies = meshes.bodies;
   switch (params.format) {
@@ -167,10 +178,15 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
   const ImportFormat format = params.format;
   const auto bytes = access.read_regular(path);
   if (!bytes) {
-    diagnostics.warning(range, warning_text(format == ImportFormat::k3mf
-                                                ? "Could not read file"
-                                                : "Can't open import file",
-                                            path, range));
+    const char* const reason =
+        errno == 0 ? "not a regular file" : std::strerror(errno);
+    Diagnostic missing{
+        Severity::kWarning, range,
+        warning_text(format == ImportFormat::k3mf ? "Could not read file"
+                                                  : "Can't open import file",
+                     path, range)};
+    missing.hints = hint_of(reason);
+    diagnostics.report(std::move(missing));
     return {};
   }
   PlacedMeshes meshes;

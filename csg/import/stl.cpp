@@ -142,7 +142,19 @@ std::optional<Vec3> read_vertex(std::string_view line, const TextLines& lines) {
   return vertex;
 }
 
+// A download that ended early would be sliced to a fragment.
+void require_end(std::string_view bytes) {
+  const std::size_t end = bytes.rfind("endsolid");
+  const std::size_t last = bytes.rfind("vertex");
+  if (last == std::string_view::npos) return;
+  if (end == std::string_view::npos || end < last) {
+    throw FormatError(
+        "STL file that is cut off, without 'endsolid' at its end,");
+  }
+}
+
 RawMesh parse_text(std::string_view bytes) {
+  require_end(bytes);
   FacetJoiner facets(0);
   TextLines lines(bytes);
   lines.next();  // the name

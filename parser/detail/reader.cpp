@@ -181,11 +181,14 @@ void Reader::warn_of_digits(std::string_view digits, double value) {
 void Reader::report_syntax_error(SourceRange range, std::string_view symbol,
                                  std::vector<std::string_view> expected) {
   const std::string_view text = range.text();
+  // The program adds the ';' behind a -D.
+  const bool ends_definition =
+      range.is_defined_by_option() && range.source->text()[range.end] == '\n';
+  if (ends_definition) symbol = "end of the definition";
   const bool is_end = symbol.starts_with("end of");
   std::vector<Note> hints;
-  // The end stands behind the last line breaks: show the text before them.
-  hints.push_back({is_end ? last_text(range) : SourceRange{},
-                   describe_syntax_error(symbol, text, std::move(expected))});
+  hints.push_back(
+      {{}, describe_syntax_error(symbol, text, std::move(expected))});
   const bool is_closing = text == ")" || text == "]" || text == "}";
   SourceRange opening;
   if (is_end && !brackets_.empty()) opening = brackets_.back();
@@ -198,13 +201,6 @@ void Reader::report_syntax_error(SourceRange range, std::string_view symbol,
     hints.push_back({opening, "opened here"});
   }
   errors_.report(range, "syntax error", std::move(hints));
-}
-
-SourceRange Reader::last_text(SourceRange before) const {
-  const std::string& text = before.source->text();
-  std::uint32_t end = before.begin;
-  while (end > 0 && static_cast<unsigned char>(text[end - 1]) <= ' ') --end;
-  return {before.source, end - (end > 0 ? 1 : 0), end};
 }
 
 void Reader::report_unterminated(const char* what) {

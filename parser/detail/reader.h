@@ -99,7 +99,6 @@ class Reader {
                     std::string_view hint);
   void warn_of_digits(std::string_view digits, double value);
   std::vector<const Source*> open_includes() const;
-  SourceRange last_text(SourceRange before) const;
 
   Arena& arena_;
   Loader& loader_;

@@ -1,6 +1,7 @@
 #include "parser/detail/syntax_errors.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -62,6 +63,7 @@ std::string explain_invalid(std::string_view text) {
 
 std::string describe_token(std::string_view symbol, std::string_view text) {
   constexpr std::size_t kLongest = 40;  // bytes; longer tokens are not repeated
+  if (symbol == "end of the definition") return std::string(symbol);
   if (symbol.starts_with("end of")) return "end of the file";
   if (text.size() > kLongest) return describe_symbol(symbol);
   return fmt::format("'{}'", text);
@@ -100,6 +102,14 @@ std::string describe_expected(Symbols symbols) {
 
 std::string describe_syntax_error(std::string_view symbol,
                                   std::string_view text, Symbols expected) {
+  constexpr std::array<std::string_view, 6> kQuotes = {
+      "'", "\u201c", "\u201d", "\u201e", "\u2018", "\u2019"};
+  if (contains({kQuotes.begin(), kQuotes.end()}, text)) {
+    return fmt::format(
+        "unexpected '{}': strings stand in straight double "
+        "quotes, \"…\"",
+        text);
+  }
   // A character that no text may hold says enough by itself.
   if (symbol == "invalid character") {
     return "unexpected " + explain_invalid(text);

@@ -11,9 +11,7 @@ std::vector<Value> run_named_arguments(
   const ArgumentPlan plan =
       plan_arguments(make_parameters(parameters), positional, code.arguments,
                      frame.in.dynamic_names(), frame.in.language());
-  for (const std::string& warning : plan.warnings) {
-    frame.in.warn(code.range, warning, frame.document);
-  }
+  frame.in.warn_of_arguments(plan, code.range, frame.document);
   std::vector<Value> values(parameters.size());
   for (const BoundArgument& bound : plan.bound) {
     Value value = run(code.arguments[bound.written].value, frame);

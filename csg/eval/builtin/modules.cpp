@@ -20,9 +20,7 @@ ModuleCall::ModuleCall(const BuiltinModuleCode& called, Frame& caller)
   if (code.plan->has_newer_argument) {
     in.note_newer(code.range, "an argument that 2021.01 does not know");
   }
-  for (const std::string& warning : code.plan->warnings) {
-    frame.in.warn(code.range, warning, frame.document);
-  }
+  in.warn_of_arguments(*code.plan, code.range, frame.document);
   bind(run_arguments(*code.plan, code.arguments, frame,
                      [&](const Target& target, Value&& value) {
                        if (target.kind == Target::Kind::kSlot) {
@@ -42,9 +40,20 @@ const Value& ModuleCall::operator[](std::string_view parameter) const {
 
 void warn_of_children(const BuiltinModuleCode& code, Frame& frame) {
   if (code.block->statements.empty()) return;
+  // What follows without a brace was hardly meant as a child.
+  const SourceRange range = code.range;
+  const std::string_view rest =
+      std::string_view(range.source->text()).substr(range.end);
+  const std::size_t next = rest.find_first_not_of(" \t\r\n");
+  std::vector<Note> hints;
+  if (next != std::string_view::npos && rest[next] != '{') {
+    hints.push_back(
+        {{range.source, range.end, range.end}, "is a ';' missing here?"});
+  }
   frame.in.warn(
-      code.range,
-      fmt::format("module {}() does not support child modules", code.name));
+      range,
+      fmt::format("module {}() does not support child modules", code.name),
+      nullptr, std::move(hints));
 }
 
 Facets clamped_facets(const ModuleCall& call) {

@@ -1,10 +1,14 @@
 #include "csg/eval/code/argument_plan.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <unordered_set>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/similar.h"
 
 namespace lamina::csg {
 
@@ -117,7 +121,21 @@ class Planner {
  private:
   template <typename... Parts>
   void warn(fmt::format_string<Parts...> words, Parts&&... parts) {
-    plan_.warnings.push_back(fmt::format(words, std::forward<Parts>(parts)...));
+    plan_.warnings.push_back(
+        {fmt::format(words, std::forward<Parts>(parts)...), ""});
+  }
+  std::vector<std::string_view> parameter_names() const {
+    std::vector<std::string_view> names;
+    for (const Parameter& parameter : parameters_) {
+      if (!parameter.is_extra) names.push_back(parameter.name);
+    }
+    return names;
+  }
+  std::string list_of_parameters() const {
+    constexpr std::size_t kMost = 10;
+    const std::vector<std::string_view> names = parameter_names();
+    if (names.empty() || names.size() > kMost) return "";
+    return fmt::format("the parameters are {}", fmt::join(names, ", "));
   }
   void warn_of_unknown(std::string_view name) {
     const Parameter* known = index_.find(name);
@@ -130,9 +148,25 @@ class Planner {
     }
     warn("variable {} not specified as parameter",
          quoted_name(name, language, ""));
+    std::string& hint = plan_.warnings.back().hint;
+    hint = did_you_mean(name, parameter_names());
+    if (hint.empty()) hint = list_of_parameters();
+  }
+  // cube(1, 2, 3) and rotate(45, 0, 0) are other languages.
+  bool takes_list() const {
+    constexpr std::array<std::string_view, 4> kLists = {"size", "v", "a",
+                                                        "newsize"};
+    return positional_ > 0 &&
+           std::ranges::find(kLists, parameters_[0].name) != kLists.end();
   }
   void warn_of_surplus() {
-    if (warns_ && !has_too_many_) warn("Too many unnamed arguments supplied");
+    if (warns_ && !has_too_many_) {
+      warn("Too many unnamed arguments supplied");
+      plan_.warnings.back().hint = list_of_parameters();
+      if (takes_list()) {
+        plan_.warnings.back().hint += "; several numbers for one stand in [ ]";
+      }
+    }
     has_too_many_ = true;
   }
 

@@ -248,6 +248,10 @@ struct BoundArgument {
   std::uint32_t written = 0;  // index in the call's arguments
 };
 // How the arguments of a call meet parameters, settled once per call site.
+struct ArgumentWarning {
+  std::string words;
+  std::string hint;
+};
 struct ArgumentPlan {
   // In the order in which OpenSCAD evaluates them.
   std::vector<BoundArgument> bound;
@@ -255,7 +259,7 @@ struct ArgumentPlan {
   // Fallbacks are evaluated after the arguments, and `$` variables among these
   // are set after both. Else each is set at once, fallbacks first.
   bool evaluates_fallbacks_last = false;
-  std::vector<std::string> warnings;
+  std::vector<ArgumentWarning> warnings;
   // Whether one is given that only 2026 knows.
   bool has_newer_argument = false;
 };

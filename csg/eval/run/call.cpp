@@ -34,7 +34,7 @@ namespace {
                                      SourceRange range, Frame& caller,
                                      Repeats repeats) {
   if (repeats == Repeats::kSilent && !caller.in.is_first_of_call(range)) return;
-  for (const std::string& warning : plan.warnings) warn(caller, range, warning);
+  caller.in.warn_of_arguments(plan, range, caller.document);
 }
 void warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
                        Frame& caller, Repeats repeats) {

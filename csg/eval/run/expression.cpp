@@ -241,9 +241,7 @@ Value run_echo(const Expression& expression, Frame& frame) {
 }
 
 void run_assert(const AssertCode& code, Frame& frame) {
-  for (const std::string& warning : code.plan->warnings) {
-    warn(frame, code.range, warning);
-  }
+  frame.in.warn_of_arguments(*code.plan, code.range, frame.document);
   const Value condition = run(code.condition, frame);
   const Value message = run(code.message, frame);
   if (condition.is_true()) return;

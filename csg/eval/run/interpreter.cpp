@@ -62,11 +62,19 @@ void Interpreter::report_warning(Diagnostic warning) {
 }
 
 void Interpreter::warn(SourceRange range, std::string message,
-                       const Source* document) {
+                       const Source* document, std::vector<Note> hints) {
   report_warning({.severity = Severity::kWarning,
                   .range = range,
                   .message = std::move(message),
+                  .hints = std::move(hints),
                   .document = document});
+}
+
+void Interpreter::warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
+                                    const Source* document) {
+  for (const ArgumentWarning& warning : plan.warnings) {
+    warn(range, warning.words, document, hint_of(warning.hint));
+  }
 }
 
 void Interpreter::warn_of_unknown(Named kind, SourceRange range,

@@ -53,7 +53,9 @@ class Interpreter {
   // `document` is that of the frame where OpenSCAD shows places relative to the
   // code's file, and null where it shows them relative to the design.
   void warn(SourceRange range, std::string message,
-            const Source* document = nullptr);
+            const Source* document = nullptr, std::vector<Note> hints = {});
+  void warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
+                         const Source* document);
   void warn_of_unknown(Named kind, SourceRange range, std::string_view name,
                        const Source* document = nullptr);
   void deprecate(SourceRange range, std::string message,

@@ -158,7 +158,8 @@ TEST(Inspect, AllFormatsAndTheDesignItselfTellTheSame) {
   words.insert(words.end(), options.begin(), options.end());
   const json design = inspected(folder, words);
   ASSERT_GT(design.at("layers").size(), 20U);
-  for (const std::string format : {"slc", "cli", "svg", "3mf", "layers.json"}) {
+  for (const std::string format :
+       {"slc", "cli", "svg", "slices.3mf", "layers.json"}) {
     std::vector<std::string> slice = words;
     slice.insert(slice.end(), {"-o", "b." + format});
     ASSERT_EQ(run(folder, slice).status, 0);

@@ -296,6 +296,7 @@ TEST_F(Strict, MisspeltWordsGetAGuess) {
          "file: ./insepct)\n");
   expect({"dd.scad"}, 1,
          "error: Can't open input file 'dd.scad'!\n"
+         "note: No such file or directory\n"
          "note: did you mean 'd.scad'?\n");
 }
 

@@ -140,8 +140,7 @@ TEST(Parse3mf, ReadsTheUsualPartWithoutRelationships) {
 }
 
 TEST(Parse3mf, SaysWhatIsWrong) {
-  EXPECT_EQ(fault_of([] { parse_3mf("garbage"); }),
-            "ZIP archive has no directory");
+  EXPECT_EQ(fault_of([] { parse_3mf("garbage"); }), "not a ZIP archive");
   EXPECT_EQ(fault_of([] {
               parse_3mf(make_zip({{"a", "b"}}));
             }),

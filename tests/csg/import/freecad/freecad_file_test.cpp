@@ -547,7 +547,7 @@ TEST(FreecadFile, RejectsWhatIsNoArchive) {
             "FCStd holds no 'Document.xml'");
   const std::string whole = FreecadDocument().box("A").bytes();
   EXPECT_EQ(fault_of_bytes(whole.substr(0, whole.size() / 2)),
-            "ZIP archive has no directory");
+            "ZIP archive is cut off: it has no directory");
 }
 
 TEST(FreecadFile, SurvivesEveryCutAndChangedByteOfItsDocument) {
