@@ -41,7 +41,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view most_similar(std::string_view name,
                               std::span<const std::string_view> candidates) {
-  const std::size_t most = (name.size() + 2) / 3;
+  // Any letter is within one of another.
+  const std::size_t most = name.size() < 2 ? 0 : (name.size() + 2) / 3;
   const std::string lower = lower_case(name);
   std::size_t least = most + 1;
   std::string_view best;

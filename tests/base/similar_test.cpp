@@ -19,6 +19,9 @@ TEST(Similar, IsOneLetterInThreeAtMost) {
   EXPECT_EQ(most_similar("cone", names), "cube");
   EXPECT_EQ(most_similar("cylinder", names), "");
   EXPECT_EQ(most_similar("cube", names), "");  // itself
+  const std::vector<std::string_view> letters = {"a", "x"};
+  EXPECT_EQ(most_similar("X", letters), "x");
+  EXPECT_EQ(most_similar("b", letters), "");
 }
 
 // All of 20,000 among 20,000 would take minutes.

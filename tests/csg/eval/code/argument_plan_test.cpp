@@ -40,6 +40,14 @@ ArgumentPlan plan(const std::vector<std::string_view>& names,
                         language, surplus);
 }
 
+std::vector<std::string> words_of(const ArgumentPlan& plan) {
+  std::vector<std::string> words;
+  for (const ArgumentWarning& warning : plan.warnings) {
+    words.push_back(warning.words);
+  }
+  return words;
+}
+
 TEST(PlanArguments, GoByPositionAndByName) {
   const ArgumentPlan made = plan({"a", "b", "c"}, 3, {{"c"}, {""}, {""}});
   EXPECT_EQ(arguments_of(made, 3), (std::vector<int>{1, 2, 0}));
@@ -49,23 +57,36 @@ TEST(PlanArguments, GoByPositionAndByName) {
 TEST(PlanArguments, PositionsReachNoFurtherThanTheyMay) {
   const ArgumentPlan made = plan({"a", "b"}, 1, {{""}, {""}, {""}});
   EXPECT_EQ(arguments_of(made, 2), (std::vector<int>{0, -1}));
-  EXPECT_EQ(made.warnings,
+  EXPECT_EQ(words_of(made),
             (std::vector<std::string>{"Too many unnamed arguments supplied"}));
 }
 
 TEST(PlanArguments, TheLastOfANameCounts) {
   const ArgumentPlan made = plan({"a"}, 1, {{"a"}, {"a"}});
   EXPECT_EQ(arguments_of(made, 1), std::vector<int>{1});
-  EXPECT_EQ(made.warnings,
+  EXPECT_EQ(words_of(made),
             (std::vector<std::string>{"argument a supplied more than once"}));
 }
 
 TEST(PlanArguments, WarnOfNamesThatAreNoParametersIfAsked) {
   EXPECT_EQ(
-      plan({"a"}, 1, {{"x"}}).warnings,
+      words_of(plan({"a"}, 1, {{"x"}})),
       (std::vector<std::string>{"variable x not specified as parameter"}));
   EXPECT_TRUE(plan({"a"}, 1, {{"x"}}, Surplus::kSilent).warnings.empty());
   EXPECT_TRUE(plan({"a"}, 1, {{"$x"}}).warnings.empty());
+}
+
+TEST(PlanArguments, HintsAtWhatWasMeant) {
+  const auto hint = [](const ArgumentPlan& made) {
+    return made.warnings.at(0).hint;
+  };
+  EXPECT_EQ(hint(plan({"height", "center"}, 1, {{"hieght"}})),
+            "did you mean 'height'?");
+  EXPECT_EQ(hint(plan({"a", "b"}, 1, {{"x"}})), "the parameters are a, b");
+  EXPECT_EQ(hint(plan({"r"}, 1, {{""}, {""}})), "the parameters are r");
+  EXPECT_EQ(hint(plan({"size", "center"}, 2, {{""}, {""}, {""}})),
+            "the parameters are size, center; several numbers for one stand in "
+            "[ ]");
 }
 
 TEST(PlanArguments, EvaluatesFallbacksThatAreNeededOrNoticed) {
@@ -83,7 +104,7 @@ TEST(PlanArguments, GoToTheNextFreeParameterSince2026) {
                                  Surplus::kWarn, Language::k2026);
   // In the order of the text: the last one of a parameter counts.
   EXPECT_EQ(arguments_of(made, 3), (std::vector<int>{0, 2, -1}));
-  EXPECT_EQ(made.warnings,
+  EXPECT_EQ(words_of(made),
             (std::vector<std::string>{"argument \"b\" overrides positional "
                                       "argument"}));
   EXPECT_EQ(made.defaults, (std::vector<std::uint32_t>{2}));
