@@ -48,7 +48,7 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
   add_common_options(options, limits, access_limits);
   try {
     if (const auto answer =
-            options.read(argc, argv, std::string(command.help()))) {
+            options.read(argc, argv, command.short_help(), command.help())) {
       print_out(*answer);
       return kDone;
     }

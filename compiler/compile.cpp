@@ -1,5 +1,6 @@
 #include "compiler/compile.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -73,9 +74,11 @@ bool ends_strictly(Compilation& c) {
   const std::size_t warnings = c.count(Severity::kWarning);
   if (warnings == 0) return false;
   c.has_failed = true;
+  const auto first = std::ranges::find(c.diagnostics.all(), Severity::kWarning,
+                                       &Diagnostic::severity);
   c.diagnostics.error(
-      {}, fmt::format("{}, so nothing is written; with --no-strict it is",
-                      counted(warnings, "warning")));
+      {}, fmt::format("not written: {} (first: {}); --no-strict writes it",
+                      counted(warnings, "warning"), first->message));
   return true;
 }
 

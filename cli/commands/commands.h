@@ -17,6 +17,9 @@ class Command {
 
   virtual std::string_view help() const = 0;
 
+  // What --help prints, if that is not all.
+  virtual std::string_view short_help() const { return help(); }
+
   // Binds options and positional words to this command, which outlives the
   // list.
   virtual void add_options(OptionList& options) = 0;

@@ -225,8 +225,9 @@ class CsvRows : public Rows {
     }
     diagnostics_.error(
         header,
-        fmt::format("'{0}' is no variable of '{1}' (--skip {0} passes over it)",
-                    name, options_.request.design.path));
+        fmt::format(
+            "'{1}' has no variable '{0}' (--skip {0} ignores the column)", name,
+            options_.request.design.path));
   }
 
   void refuse_repeated(SourceRange header, const std::string& name) {
@@ -418,7 +419,7 @@ class PieceTable : public PieceSource {
       const auto [first, is_new] = firsts.try_emplace(place, prefix_of(row_));
       if (is_new) continue;
       diagnostics.error(
-          {}, fmt::format("{}and {}have one output, '{}'", first->second,
+          {}, fmt::format("{}and {}would both write '{}'", first->second,
                           prefix_of(row_), row_.output));
     }
   }

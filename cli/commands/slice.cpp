@@ -28,14 +28,14 @@
 namespace lamina::cli {
 namespace {
 
-constexpr std::string_view kHelp =
+constexpr std::string_view kCommonHelp =
     R"(lamina compiles OpenSCAD designs straight to the layers of a 3D printer.
 
 Usage:
   lamina DESIGN... [-o FILE] [OPTION]...  slice .scad, .csg, meshes, CAD files
   lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
                                           a piece for every row of a table
-  lamina check FILE [OPTION]...           say what would go wrong in the print
+  lamina check FILE... [OPTION]...        say whether it would print
   lamina inspect FILE [OPTION]...         list layers, measure and weigh them
   lamina compare A B [OPTION]...          compare two files or designs
   lamina view FILE -o PICTURE.png         draw a layer file or a design
@@ -44,9 +44,9 @@ Usage:
   lamina materials                        list its resins and metals
 
 Output:
-  -o FILE             the output, by its extension; '-' is standard output;
-                      without it, ring.slc beside ring.scad; of several
-                      designs a folder (out/) or pattern (out/{name}.slc)
+  -o FILE             the output, by its extension ('-' for standard output);
+                      ring.slc beside ring.scad if not given; for several
+                      designs a folder (out/) or a pattern (out/{name}.slc)
                         .slc             layers for wax and resin printers
                         .cli             Common Layer Interface
                         .svg             a group of polygons per layer, or the
@@ -55,67 +55,85 @@ Output:
                         .sl1             images for Prusa's resin printers
                         .zip .nanodlp    images for printers with NanoDLP
                         .slices.3mf      a stack of slices
-                        .layers.json     layers with every digit
-                        .csg .echo .ast  what the design makes, says, and is
-                        .param           its parameters, as JSON
-  --export-format F   one of these formats, whatever the output's name
-  --printer P         the printer, a name ('lamina printers' lists them) or a
-                      profile: whether the part fits, how long it takes, the
-                      panel of images [of images plain; of .sl1 prusa-sl1; of
-                      .zip wanhao-d7]
-  --material M        a resin or a metal, a name ('lamina materials' lists
-                      them) or a profile: exposure, weight, price
-  --mirror x|y|xy     of images: turned over
-  --cli ENCODING      of .cli: binary or ascii [binary]
+                        .layers.json     layers as JSON, in full precision
+                        .csg .echo .ast  the CSG tree, the echo output, the
+                                         syntax tree
+                        .param           the parameters, as JSON
+  --printer P         the printer, by name ('lamina printers' lists them) or by
+                      profile: does the part fit, how long does it take, which
+                      pixels do images have
+  --material M        a resin or a metal, by name ('lamina materials' lists
+                      them) or by profile: exposure, weight, price
 
 Design:
   -D NAME=VALUE       set a variable of the design; may be repeated
   -p FILE -P SET      set its parameters from a file of the customizer
-  --check-parameters true|false
-                      warn of arguments that a module does not take [true]
-  --check-parameter-ranges true|false
-                      warn of numbers out of range [false]
-  --hardwarnings      stop at the first warning
-  --strict            write nothing where there is a warning or an error,
-                      whichever; so do batches and runs with --root
-  --no-strict         but not those with this option
-  --part NAME         only this part of a CAD file or a 3MF ('lamina parts
-                      FILE' lists them)
-  --language WORD     what OpenSCAD the design is written for: 2021 (2021.01),
-                      2026, or auto: 2026 if 2021.01 cannot parse it, or if
-                      what runs does nothing there [auto]
-  --seed N            seed of rands() where the design gives none [0]
-  --render            $preview is false, whatever the output
-  --preview           undoes --render
-  -d FILE             write what the output depends on, as a rule for make
+  --part NAME         slice one part of a CAD file or a 3MF ('lamina parts FILE'
+                      lists them)
+  --strict            treat warnings as errors (default for batches and --root)
+  --no-strict         let batches and --root go on after warnings
   --watch             slice again whenever the design, or a file that it depends
                       on, changes; Ctrl-C ends
 
 Slicing (lengths in millimetres):
   --layer MM          thickness of a layer [0.05]
-  --adaptive CUSP     layers as thick as steps of CUSP on the surface allow:
-                      multiples of --layer, which is the thinnest
-  --max-layer MM      thickness of the thickest of these [4 times --layer]
-  --heights Z1,Z2,... sections at exactly these heights instead, ascending
-  --layers A:B        write layers A to B only, numbered as 'lamina inspect'
-                      does; A: and :B are open ends
+  --adaptive CUSP     adaptive layers: steps on the surface no larger than CUSP,
+                      thicknesses in multiples of --layer
   --axis AXIS         direction of building: z, x, y, -x, -y, -z, or auto: the
-                      one with the least steps, height and overhang [z]
+                      one with the fewest steps, least height and overhang [z]
   --place-on-bed      put the lowest point of the design at height 0
-  --chordal-error MM  distance of facets from curves where $fn does not say
-                      [$fa and $fs decide; of CAD files 0.01]
-  --decimate MM       take triangles out of imported meshes, such as scans,
-                      that stay within this distance of themselves
-  --tolerance MM, --simplify MM
-                      write the fewest vertices within this distance of the
-                      contour; 0 writes all [0.001]
-  --scale FACTOR      size of the print over that of the design, such as 1.02
-                      where casting shrinks [1]
+  --scale FACTOR      enlarge the print, by 1.02 where casting shrinks [1]
   --compensate MM     move contours into the solid by half the width of the
                       beam; negative: out of it [0]
+
+Checks:
+  --min-feature MM    report walls and gaps thinner than this, and what makes
+                      them
+  --report FILE       write times, counts, memory, tolerances, thin features and
+                      likely print failures as JSON
+
+Messages:
+  -q, --quiet         print errors only
+  -h, --help          print this help
+  --help-all          print all options: rare ones, limits, the paper's method
+  -v, --version       print the version
+
+)";
+
+constexpr std::string_view kRareHelp =
+    R"(More output:
+  --export-format F   one of the formats above, whatever the output's name
+  --mirror x|y|xy     mirror the images
+  --cli ENCODING      binary or ascii .cli [binary]
+  -d FILE             write what the output depends on, as a rule for make
+
+More of the design:
+  --language WORD     the OpenSCAD that the design is written for: 2021
+                      (2021.01), 2026, or auto: 2026 if 2021.01 cannot parse it,
+                      or if what runs does nothing there [auto]
+  --check-parameters true|false
+                      warn of arguments that a module does not take [true]
+  --check-parameter-ranges true|false
+                      warn of numbers out of range [false]
+  --hardwarnings      stop at the first warning
+  --seed N            seed of rands() where the design gives none [0]
+  --render            set $preview to false, whatever the output
+  --preview           undo --render
+
+More of slicing:
+  --max-layer MM      greatest thickness of adaptive layers [4 times --layer]
+  --heights Z1,Z2,... cut at exactly these heights (ascending) instead
+  --layers A:B        write layers A to B only, numbered as 'lamina inspect'
+                      does; A: and :B are open ends
+  --chordal-error MM  greatest distance of facets from curves where $fn does not
+                      say [$fa and $fs decide; for CAD files 0.01]
+  --decimate MM       remove triangles of imported meshes, such as scans, within
+                      this distance
+  --tolerance MM      write the fewest vertices within this distance of the
+                      contour; 0 writes all [0.001]
   --ray auto|MM       distance of the rays; speed only, except for
                       --contour paper [auto]
-  --threads N         threads at work [as many as the machine has]
+  --threads N         number of threads [as many as the machine has]
 
 Files (for designs that strangers write; see docs/usage.md):
   --root FOLDER       read and write in this folder only, links resolved
@@ -127,15 +145,15 @@ Files (for designs that strangers write; see docs/usage.md):
 Limits (an exceeded one is an error; see docs/usage.md for all):
   --max-memory SIZE   memory in use: bytes, or with K, M, G or % of what the
                       machine has [80%]
-  --max-time SECONDS  time by the clock; of several designs, of pieces and of
-                      runs under --watch each by itself [none]
+  --max-time SECONDS  time by the clock, for each design, piece or run under
+                      --watch [none]
   --max-depth N       nested calls of functions and modules [300000]
   --max-leaves N      parts of the design, once all loops have run [10000000]
 
 For comparison, the method of Zeng et al. 2011:
   --contour MODE      faithful: exact contours; paper: linked rays [faithful]
-  --boxes MODE        of paper: local or global depth images [local]
-  --sampler KIND      of paper: scanline, or gl (drawn by OpenGL, by depth
+  --boxes MODE        with paper: local or global depth images [local]
+  --sampler KIND      with paper: scanline, or gl (drawn by OpenGL, by depth
                       peeling, as published) [scanline]
 
 Looking inside (see docs/wrong-contour.md):
@@ -145,19 +163,10 @@ Looking inside (see docs/wrong-contour.md):
                       contours
   --at Z              the layer: the one that holds this height
 
-Checks:
-  --min-feature MM    report walls and gaps thinner than this, and what
-                      made them
-  --report FILE       write times, counts, memory, the bound on what contours
-                      deviate by, thin features, and what would go wrong in
-                      the print, as JSON
+)";
 
-Messages:
-  -q, --quiet         say nothing but errors
-  -h, --help          print this help
-  -v, --version       print the version
-
-Examples:
+constexpr std::string_view kHelpEnd =
+    R"(Examples:
   lamina ring.scad                        ring.slc, layers of 0.05 mm
   lamina ring.scad -o wax.slc --layer 0.025 -D size=54
   lamina inspect ring.slc                 is it sound? how much wax?
@@ -224,10 +233,20 @@ std::string check_words(const OptionList& options) {
 
 class SliceCommand : public Command {
  public:
-  std::string_view help() const override { return kHelp; }
+  std::string_view help() const override {
+    static const std::string all =
+        fmt::format("{}{}{}", kCommonHelp, kRareHelp, kHelpEnd);
+    return all;
+  }
+  std::string_view short_help() const override {
+    static const std::string common =
+        fmt::format("{}{}", kCommonHelp, kHelpEnd);
+    return common;
+  }
 
   void add_options(OptionList& options) override {
     options.words("design", designs_);
+    options.all_help();
     options.name("-o", "file", request_.output.path);
     options.name("-d", "file", request_.output.dependencies);
     options.flag("--watch", watches_);

@@ -42,13 +42,14 @@ std::string words_of(const CLI::ArgumentMismatch& fault) {
 }
 
 // Names that other programs give to options of lamina.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kOthers =
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOthers =
     {{{"--layer-height", "--layer"},
       {"--output", "-o"},
       {"--export-sla", "-o"},
       {"--load", "--printer"},
       {"-j", "--threads"},
-      {"-V", "--version"}}};
+      {"-V", "--version"},
+      {"--simplify", "--tolerance"}}};
 
 // For the first word that is not an option but much like one, or one of another
 // program.
@@ -233,6 +234,8 @@ void OptionList::help_and_version() {
   app_->set_version_flag("-v,--version", fmt::format("lamina {}", version()));
 }
 
+void OptionList::all_help() { app_->set_help_all_flag("--help-all"); }
+
 void OptionList::begin_group(const std::string& group) {
   app_->option_defaults()->group(group);
 }
@@ -253,11 +256,14 @@ void OptionList::on_read(const std::function<void()>& use) {
 }
 
 std::optional<std::string> OptionList::read(int argc, const char* const* argv,
-                                            const std::string& help) {
+                                            std::string_view help,
+                                            std::string_view all_help) {
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return help;
+    return std::string(help);
+  } catch (const CLI::CallForAllHelp&) {
+    return std::string(all_help);
   } catch (const CLI::CallForVersion& version) {
     return fmt::format("{}\n", version.what());
   } catch (const CLI::ExtrasError& error) {

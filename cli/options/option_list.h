@@ -109,6 +109,8 @@ class OptionList {
 
   // -h and -v, which read() answers.
   void help_and_version();
+  // --help-all, likewise.
+  void all_help();
 
   // Options that are added between these are of a group.
   void begin_group(const std::string& group);
@@ -121,9 +123,10 @@ class OptionList {
   void on_read(const std::function<void()>& use);
 
   // Reads the words, the program's name first. Returns what is to be printed
-  // instead of a run: `help`, or the version.
+  // instead of a run: one of the helps, or the version.
   std::optional<std::string> read(int argc, const char* const* argv,
-                                  const std::string& help);
+                                  std::string_view help,
+                                  std::string_view all_help);
 
   // Those that were given, in the order of their addition.
   std::vector<GivenOption> given() const;

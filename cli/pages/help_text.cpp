@@ -32,8 +32,8 @@ Word word_at(const std::string& line, std::size_t at) {
   return {begin, std::min(line.find(' ', begin), line.size())};
 }
 
-// Names and their values behind them, as in "-p FILE -P SET" and
-// "--tolerance MM, --simplify MM". Two blanks end them, or a word behind a
+// Names and their values behind them, as in "-p FILE -P SET" and "-q, --quiet".
+// Two blanks end them, or a word behind a
 // value, where the value is long.
 std::size_t read_head(const std::string& line, HelpEntry& entry) {
   std::size_t end = 0;

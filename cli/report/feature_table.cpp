@@ -103,8 +103,8 @@ std::string feature_table(std::span<const ThinFeature> features, double width,
     fmt::format_to(out, "  … and {} more lines\n", lines.size() - listed);
   }
   if (!low.empty()) {
-    fmt::format_to(out, "and, in fewer layers than make {} mm: {}\n", width,
-                   counts_text(low));
+    fmt::format_to(out, "not listed: {} less than {} mm high\n",
+                   counts_text(low), width);
   }
   return text;
 }

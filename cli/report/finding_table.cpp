@@ -127,7 +127,7 @@ std::string finding_counts(const PrintCheck& print) {
     text += fmt::format("{}{}", text.empty() ? "" : ", ",
                         counted(count, name_of(kind)));
   }
-  if (text.empty()) text = "nothing found";
+  if (text.empty()) text = "no problems found";
   if (const std::size_t minor = print.count_minor()) {
     text += fmt::format(" ({} too small to matter)", minor);
   }
@@ -155,10 +155,10 @@ std::string finding_table(const PrintCheck& print,
     }
   }
   if (print.peel.layer > 0) {
-    fmt::format_to(out, "peel: {:.4g} mm² at most, in layer {}",
+    fmt::format_to(out, "peel: largest cured area {:.4g} mm² (layer {})",
                    print.peel.greatest_area, print.peel.layer);
     if (print.peel.jump_layer > 0) {
-      fmt::format_to(out, "; {:.4g} mm² more than before in layer {}",
+      fmt::format_to(out, ", largest jump {:.4g} mm² (layer {})",
                      print.peel.greatest_jump, print.peel.jump_layer);
     }
     text += '\n';

@@ -10,7 +10,7 @@
 
 namespace lamina::cli {
 
-// "2 islands, 1 resin trap", "nothing found"; what is too small to matter is
+// "2 islands, 1 resin trap", "no problems found"; what is too small to matter is
 // counted apart.
 std::string finding_counts(const slicer::PrintCheck& print);
 

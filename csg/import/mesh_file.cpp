@@ -206,14 +206,15 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
     if (params.is_design) {
       throw GeometryError(
           {Severity::kError, range,
-           fmt::format("'{0}' holds layers already, and a mesh that only "
-                       "stands in for them; try 'lamina inspect {0}'",
+           fmt::format("'{0}' holds layers already, and its mesh is only a "
+                       "placeholder; try 'lamina inspect {0}'",
                        path)});
     }
     diagnostics.warning(
-        range, fmt::format("'{}' shows its part by slices, and its mesh only "
-                           "stands in for them{}",
-                           path, at_import(range)));
+        range,
+        fmt::format("'{}' holds its part as slices, and its mesh is only a "
+                    "placeholder{}",
+                    path, at_import(range)));
   }
   for (const RawMesh& raw : bodies) {
     LAMINA_CHECK_EQ(raw.count_stray_corners(), 0U);

@@ -267,7 +267,7 @@ TEST(Compile, OneAndManyThreadsWriteTheSameBytes) {
   const auto bytes_with = [&](const char* threads, const char* mode) {
     EXPECT_EQ(
         run(folder, {"a.scad", "-o", "a.slc", "--threads", threads, "--contour",
-                     mode, "--compensate", "0.02", "--simplify", "0.01"})
+                     mode, "--compensate", "0.02", "--tolerance", "0.01"})
             .status,
         0);
     return read_file(folder.file("a.slc"));

@@ -98,12 +98,13 @@ std::string_view name_of(FindingKind kind) {
 std::string size_text(const Finding& finding) {
   switch (finding.kind) {
     case FindingKind::kIsland:
-      return fmt::format("{:.4g} mm², {}", finding.area,
-                         finding.is_joined ? fmt::format("joined in layer {}",
-                                                         finding.last_layer + 1)
-                                           : "never joined");
+      return fmt::format(
+          "{:.4g} mm², {}", finding.area,
+          finding.is_joined
+              ? fmt::format("held from layer {} on", finding.last_layer + 1)
+              : "never held");
     case FindingKind::kOverhang:
-      return fmt::format("{:.4g} mm², {:.3g} mm out", finding.area,
+      return fmt::format("{:.4g} mm², reaches out {:.3g} mm", finding.area,
                          finding.distance);
     default:
       return fmt::format("{:.4g} mm³, {:.4g} mm² at most", finding.volume,

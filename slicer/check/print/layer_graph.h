@@ -76,7 +76,7 @@ struct Finding {
   std::uint32_t instance = kNoInstance;  // what made it, where that is known
 };
 
-// "0.0356 mm², joined in layer 72": how much of it there is.
+// "0.0356 mm², held from layer 72 on": how much of it there is.
 std::string size_text(const Finding& finding);
 
 // What the machine has to pull off, layer by layer.

@@ -68,7 +68,7 @@ void read_profile(std::string_view kind, const std::string& name_or_file,
   }
   access.require(name_or_file);
   const std::optional<std::string> text = access.read(name_or_file);
-  if (!text || text->empty()) fail("there is nothing to read");
+  if (!text || text->empty()) fail("no such file");
   try {
     read(Json::parse(*text));
   } catch (const Json::exception& error) {

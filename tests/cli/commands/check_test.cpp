@@ -26,8 +26,9 @@ TEST(Check, EndsWellWhereNothingGoesWrong) {
   folder.write("a.scad", "cube(10);");
   const auto result = run(folder, {"check", "a.scad"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.output,
-            "print: nothing found\npeel: 100 mm² at most, in layer 1\n");
+  EXPECT_EQ(
+      result.output,
+      "print: no problems found\npeel: largest cured area 100 mm² (layer 1)\n");
 }
 
 TEST(Check, NamesTheLineOfAnIsland) {
@@ -172,7 +173,7 @@ TEST(Check, APrismThatLeansHasNoJump) {
                " cylinder(r = 5, h = 10, $fn = 50);");
   const auto result = run(folder, {"check", "a.scad"});
   EXPECT_TRUE(has(result.output, "peel: ")) << result.output;
-  EXPECT_FALSE(has(result.output, "more than before")) << result.output;
+  EXPECT_FALSE(has(result.output, "largest jump")) << result.output;
 }
 
 TEST(Machine, APartThatDoesNotFitIsAnError) {

@@ -67,9 +67,9 @@ TEST_F(Compare, AFileEqualsItselfToTheLastDigit) {
 }
 
 TEST_F(Compare, AllFormatsHoldTheSameLayers) {
-  const std::vector<std::string> files = {"ring.slc",  "ring.cli",
-                                          "ascii.cli", "ring.svg",
-                                          "ring.slices.3mf",  "ring.layers.json"};
+  const std::vector<std::string> files = {
+      "ring.slc", "ring.cli",        "ascii.cli",
+      "ring.svg", "ring.slices.3mf", "ring.layers.json"};
   for (const std::string& file : files) {
     slice(file, file == "ascii.cli" ? std::vector<std::string>{"--cli", "ascii"}
                                     : std::vector<std::string>{});

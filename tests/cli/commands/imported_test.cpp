@@ -109,12 +109,12 @@ TEST(Imported, SlicesOf3mfAreNoMesh) {
   std::filesystem::rename(folder.file("a.slices.3mf"), folder.file("b.3mf"));
   const auto box = run(folder, {"b.3mf"});
   EXPECT_EQ(box.status, 1);
-  EXPECT_TRUE(has(box.errors, "holds layers already, and a mesh that only"))
+  EXPECT_TRUE(has(box.errors, "holds layers already, and its mesh is only"))
       << box.errors;
   EXPECT_FALSE(std::filesystem::exists(folder.file("b.slc")));
   folder.write("c.scad", "import(\"b.3mf\");");
   EXPECT_TRUE(
-      has(run(folder, {"c.scad"}).errors, "its mesh only stands in for them"));
+      has(run(folder, {"c.scad"}).errors, "its mesh is only a placeholder"));
 }
 
 TEST(Imported, PicturesAreRefused) {

@@ -133,7 +133,7 @@ TEST_F(Ledgers, EveryShareRefusesATableWithEqualOutputs) {
     const auto result = batch({"--shard", share});
     EXPECT_EQ(result.status, 1);
     EXPECT_TRUE(has(result.errors,
-                    "t.csv:8: p7: and t.csv:50000: p7: have one output, "
+                    "t.csv:8: p7: and t.csv:50000: p7: would both write "
                     "'out/p7.csg'"))
         << result.errors;
   }

@@ -144,7 +144,7 @@ TEST_F(Outputs, AreDifferentFiles) {
   }
   expect_refused({"batch", "cube.scad", "--table", "links.csv", "--skip",
                   "size", "-o", "{name}/x.slc"},
-                 "have one output");
+                 "would both write");
   expect_refused({"batch", "cube.scad", "--table", "table.csv", "-o",
                   "{name}.slc", "--report", "cube.slc"},
                  "another output of this run, is the same file");
@@ -257,10 +257,10 @@ TEST_F(Outputs, ThatMeetThroughALinkAreNotDifferent) {
     expect({"cube.scad", "-o", "new/x.slc", "--report", "old/x.slc"},
            "another output of this run, is the same file");
     expect({"batch", "cube.scad", "--table", "files.csv", "-o", "{name}.slc"},
-           "have one output");
+           "would both write");
     expect(
         {"batch", "cube.scad", "--table", "folders.csv", "-o", "{name}/x.slc"},
-        "have one output");
+        "would both write");
     expect({"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.slc",
             "--ledger", "later.json", "--report", "ring.slc"},
            "another output of this run, is the same file");
@@ -405,7 +405,7 @@ TEST_F(Outputs, WhoseNamesDifferInCaseMayBeOne) {
          {"name,size\nAnna,1\nanna,2\n", "name,size\nÄnne,1\nänne,2\n"}) {
       const auto result = run_folding(names, output);
       EXPECT_EQ(result.status, 1) << names << output;
-      EXPECT_TRUE(has(result.errors, "have one output")) << result.errors;
+      EXPECT_TRUE(has(result.errors, "would both write")) << result.errors;
     }
   }
   EXPECT_EQ(run_folding("name,size\nAnna,1\nHanna,2\n", "{name}.slc").status,

@@ -80,7 +80,8 @@ std::string answer_of(const support::ProcessResult& result,
   static const std::regex usual(
       "(.* layers?, .* kB, .*|print: .*|  lamina check .*|"
       ".* of processor time .*|Run 'lamina --help' for the options\\.)");
-  static const std::regex fonts("(font \"[^\"]*\" can.*|no font here can)$");
+  static const std::regex fonts(
+      "(font \"[^\"]*\" can(, but not the rest)?|no font here can)");
   std::istringstream lines(result.output + result.errors);
   std::string answer;
   for (std::string line; std::getline(lines, line);) {
