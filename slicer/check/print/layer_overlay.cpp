@@ -328,7 +328,7 @@ class OverhangSearch {
 
   // A part has straight sides: so many columns, and places in one, tell of any.
   static double least_step(double count) {
-    constexpr double kMost = 256;
+    constexpr double kMost = 64;
     return std::max(1.0, std::floor(count / kMost));
   }
 
