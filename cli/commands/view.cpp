@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/file/output_file.h"
+#include "base/paths.h"
 #include "cli/commands/commands.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
@@ -219,6 +220,33 @@ std::string estimate_of(const compiler::Compilation& compilation,
                              found.volume));
 }
 
+// "ring.scad:12:3" as the page shows it, which goes to other machines: from the
+// design's folder, and a file that is far from there by its name alone.
+std::string place_from(const std::string& folder, const std::string& place) {
+  std::size_t end = place.size();
+  for (int i = 0; i < 2; ++i) {
+    const std::size_t digits = place.find_last_not_of("0123456789", end - 1);
+    if (digits == std::string::npos || place[digits] != ':') break;
+    end = digits;
+  }
+  std::string path = relative_path(place.substr(0, end), folder);
+  if (path.starts_with("../../")) {
+    path = std::filesystem::path(path).filename().string();
+  }
+  return path + place.substr(end);
+}
+
+std::vector<std::string> texts_from(const std::string& folder,
+                                    std::vector<compiler::SourceLines> all) {
+  for (compiler::SourceLines& lines : all) {
+    for (compiler::SourceLine& line : lines) {
+      line.place = place_from(folder, line.place);
+      for (auto& call : line.calls) call.place = place_from(folder, call.place);
+    }
+  }
+  return compiler::texts_of(all);
+}
+
 void write_page(const compiler::Compilation& compilation,
                 const compiler::Inspection& inspection,
                 const std::string& title, double min_feature) {
@@ -228,9 +256,10 @@ void write_page(const compiler::Compilation& compilation,
   page.estimate = estimate_of(compilation, found);
   page.min_feature = min_feature;
   page.features = found.features;
-  page.source_lines = compiler::texts_of(inspection.lines.features);
+  const std::string folder = folder_of(compilation.request.design.path);
+  page.source_lines = texts_from(folder, inspection.lines.features);
   page.print = found.print;
-  page.finding_source_lines = compiler::texts_of(inspection.lines.findings);
+  page.finding_source_lines = texts_from(folder, inspection.lines.findings);
   compiler::write_file(compilation.request.output.path,
                        viewer_page(inspection.layers, page),
                        compilation.temporary_files);
