@@ -40,6 +40,17 @@ for (x = [7, 10])
 """
 
 
+# A gear of 24 teeth, turned by 60 degrees over its height, with a bore.
+GEAR = """
+difference() {
+  linear_extrude(20, twist = 60, slices = 200)
+    polygon([for (i = [0 : 479]) let (r = 10 + sin(i * 18))
+      r * [cos(i * .75), sin(i * .75)]]);
+  translate([0, 0, -1]) cylinder(r = 4, h = 30, $fn = 90);
+}
+"""
+
+
 def lamina(*arguments, status=0):
     result = subprocess.run([LAMINA, *arguments], capture_output=True,
                             text=True, check=False)
@@ -107,15 +118,17 @@ class ViewerTest(unittest.TestCase):
         self.open("plate.html")
         rows = inspected_layers(self.path("plate.slc"))
         self.assertEqual(len(rows), 20)
-        # A file tells where layers begin, the page where their sections are.
+        # A file tells where layers begin, the page where their sections are,
+        # above the bed.
         half_layer = 0.05
+        bed = rows[0][0]
         for number, (z, loops, holes, vertices, area, perimeter) in enumerate(
                 rows, 1):
             self.assertEqual(self.browser.text("number"),
                              f"{number} of {len(rows)}")
             self.assertAlmostEqual(
                 float(self.browser.text("height").split()[0]),
-                z + half_layer, delta=1e-5)
+                z - bed + half_layer, delta=5e-4)
             counts = [int(n) for n in
                       re.findall(r"\d+", self.browser.text("loops"))]
             self.assertEqual(counts, [loops, holes] if holes else [loops])
@@ -364,6 +377,215 @@ class ViewerTest(unittest.TestCase):
         self.assertEqual(golden_pixels().count(section), 0)
         self.browser.press("s")
         self.assertTrue(self.is_hidden("solid-pane"))
+
+    def make_gear(self):
+        with open(self.path("gear.scad"), "w", encoding="utf-8") as file:
+            file.write(GEAR)
+        lamina("view", self.path("gear.scad"), "--layer", "0.1", "-o",
+               self.path("gear.html"))
+
+    def test_a_large_solid_is_drawn_roughly_first_and_then_in_full(self):
+        self.make_gear()
+        with open(self.path("gear.html"), encoding="utf-8") as file:
+            page = file.read()
+        # Notes each solid when it is drawn, and whether the word is there.
+        with open(self.path("noted.html"), "w", encoding="utf-8") as file:
+            file.write(page.replace(
+                "this.solid.open(() => this.draw())",
+                "this.solid.open(() => { (window.noted ||= []).push("
+                "[this.solid.mesh.quads.count, this.solid.mesh.layers.length,"
+                " byId('working').hidden]); this.draw(); })"))
+        self.open("noted.html", "theme=light")
+        (rough, few, *_), (full, many, *_) = self.browser.evaluate("noted")
+        self.assertLess(3 * rough, full)
+        self.assertLess(few, many)
+        self.assertEqual([hidden for *_, hidden in
+                          self.browser.evaluate("noted")], [False, False])
+        self.assertTrue(self.is_hidden("working"))
+
+    def test_a_solid_takes_few_looks_for_each_corner(self):
+        self.make_gear()
+        self.open("gear.html", "theme=light")
+        counts = self.browser.evaluate("""(() => {
+          const count = {walls: 0, places: 0, edges: 0, steps: 0};
+          const {at, look} = Depths.prototype;
+          Depths.prototype.at = function(x, y) {
+            ++count.places;
+            return at.call(this, x, y);
+          };
+          Depths.prototype.look = function(cell, x, y) {
+            count.edges += this.begins[cell + 1] - this.begins[cell];
+            return look.call(this, cell, x, y);
+          };
+          const mesh = new PlateMesh(viewer.part, kFull);
+          const edgesAt = mesh.edgesAt;
+          mesh.edgesAt = (i) => {
+            const edges = edgesAt.call(mesh, i);
+            count.walls += edges.length;
+            return edges;
+          };
+          for (const _ of mesh.build()) ++count.steps;
+          count.layers = mesh.layers.length;
+          count.quads = mesh.quads.count;
+          Object.assign(Depths.prototype, {at, look});
+          return count;
+        })()""")
+        self.assertEqual(counts["places"], 2 * counts["walls"])
+        self.assertLess(counts["edges"], 25 * counts["places"])
+        # A side of each edge, and at most two levels for its ends.
+        self.assertLess(counts["quads"], 5 * counts["walls"])
+        # The page gets its turn after each layer.
+        self.assertEqual(counts["steps"], counts["layers"])
+
+    def test_depths_are_those_of_all_edges(self):
+        self.open("plate.html", "theme=light")
+        worst = self.browser.evaluate("""(() => {
+          // A star with a hole, by distances to all edges and by the winding.
+          const ring = (count, radius, turn) => Float64Array.from(
+              {length: 2 * count}, (_, i) => {
+                const k = i >> 1;
+                const angle = turn * 2 * Math.PI * k / count;
+                return 12 + (i % 2 ? Math.sin(angle) : Math.cos(angle)) * radius(k);
+              });
+          const loops = [ring(34, (k) => k % 2 ? 5 : 11, 1), ring(40, () => 2, -1)];
+          const reach = 3;
+          const depths = new Depths(loops, reach);
+          const brute = (x, y) => {
+            let [nearest, isInside] = [Infinity, false];
+            for (const loop of loops) {
+              for (let i = 0, j = loop.length - 2; i < loop.length; j = i, i += 2) {
+                const [ax, ay, bx, by] = [loop[j], loop[j + 1], loop[i], loop[i + 1]];
+                const t = Math.min(1, Math.max(0, ((x - ax) * (bx - ax) +
+                    (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)));
+                nearest = Math.min(nearest, Math.hypot(
+                    x - ax - t * (bx - ax), y - ay - t * (by - ay)));
+                if ((ay > y) !== (by > y) &&
+                    x < ax + (y - ay) * (bx - ax) / (by - ay)) isInside = !isInside;
+              }
+            }
+            return Math.min(reach, nearest) * (isInside ? 1 : -1);
+          };
+          let worst = 0;
+          for (let x = -5.03; x < 30; x += .37) {
+            for (let y = -5.07; y < 30; y += .41) {
+              worst = Math.max(worst, Math.abs(brute(x, y) - depths.at(x, y)));
+            }
+          }
+          return worst;
+        })()""")
+        self.assertLess(worst, 1e-9)
+
+    def test_levels_cover_what_one_of_two_layers_has(self):
+        self.make_figure()
+        self.open("figure.html", "theme=light")
+        worst = self.browser.evaluate("""(() => {
+          const mesh = new PlateMesh(viewer.part, {finest: 0, corners: 1e9});
+          const areaOf = (below, above) => {
+            let area = 0;
+            const at = (edge, y) =>
+              edge.x + (edge.x1 - edge.x) * (y - edge.y) / (edge.y1 - edge.y);
+            sweep(below, above, 0, (left, right, y0, y1) => {
+              area += (at(right, y0) - at(left, y0) + at(right, y1) - at(left, y1)) / 2 *
+                (y1 - y0);
+            });
+            return area;
+          };
+          // Where one layer lies within the next, areas differ by the level's.
+          let worst = 0;
+          viewer.part.layers.forEach((layer, i) => {
+            const edges = mesh.edgesAt(i);
+            worst = Math.max(worst, Math.abs(areaOf(edges, []) - layer.area),
+                areaOf(edges, mesh.edgesAt(i)));
+          });
+          return worst;
+        })()""")
+        # Corners are rounded to 1e-4 mm.
+        self.assertLess(worst, 1e-4 * 2 * 3.1416 * 8)
+
+    def test_a_finding_is_turned_to(self):
+        self.make_figure()
+        self.open("figure.html", "theme=light")
+        for index in (0, -1):
+            # From below, and from behind.
+            self.browser.evaluate("viewer.solid.yaw = 2; viewer.solid.pitch = -1.2")
+            self.browser.evaluate(
+                f"[...document.querySelectorAll('#findings button')].at({index})"
+                ".click()")
+            self.browser.settle()
+            towards = self.browser.evaluate(f"""(() => {{
+              const {{yaw, pitch}} = viewer.solid;
+              const [x, y] = viewer.part.found.places.at({index}).place;
+              return [-Math.sin(yaw) * (x - viewer.part.size[0] / 2) -
+                Math.cos(yaw) * (y - viewer.part.size[1] / 2), pitch,
+                Math.hypot(x - viewer.part.size[0] / 2, y - viewer.part.size[1] / 2)];
+            }})()""")
+            self.assertAlmostEqual(towards[0], towards[2], delta=1e-9)
+            self.assertGreater(towards[1], 0)
+            self.assertFalse(self.browser.evaluate("viewer.isWhole"))
+
+    def test_files_are_named_from_the_folder_of_the_design(self):
+        os.makedirs(self.path("far/project/parts"), exist_ok=True)
+        os.makedirs(self.path("far/off"), exist_ok=True)
+        ball = "module ball(x) translate([x, 0, 5]) sphere(1);\n"
+        for name in ("far/project/parts/ball.scad", "far/off/other.scad"):
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                file.write(ball.replace("ball(", os.path.basename(name)[:4] + "("))
+        with open(self.path("far/project/main.scad"), "w",
+                  encoding="utf-8") as file:
+            file.write("use <parts/ball.scad>\nuse <../off/other.scad>\n"
+                       "cube([4, 4, 8]);\nball(8);\nothe(12);\n")
+        lamina("view", self.path("far/project/main.scad"), "-o",
+               self.path("far.html"))
+        self.open("far.html")
+        listed = self.browser.text("findings")
+        self.assertIn("parts/ball.scad:1:37 from main.scad:4:1", listed)
+        self.assertIn("../off/other.scad:1:37 from main.scad:5:1", listed)
+        with open(self.path("far.html"), encoding="utf-8") as file:
+            self.assertNotIn(self.folder.name, file.read())
+
+    def test_the_sheet_of_keys_opens_and_closes(self):
+        self.open("plate.html")
+        is_open = "document.getElementById('keys').open"
+        self.browser.press("?")
+        self.assertTrue(self.browser.evaluate(is_open))
+        # Other keys wait.
+        self.browser.press("ArrowUp")
+        self.assertEqual(self.browser.text("number"), "1 of 20")
+        self.browser.press("?")
+        self.assertFalse(self.browser.evaluate(is_open))
+
+    def test_heights_have_three_digits_and_nothing_is_minus_zero(self):
+        self.open("plate.html")
+        self.assertEqual(self.browser.text("height"), "0.050 mm")
+        self.assertEqual(self.browser.evaluate(
+            "[fixed(-1e-9, 4), fixed(-0, 2), fixed(-.25, 1), fixed(3, 0)]"),
+            ["0.0000", "0.00", "-0.3", "3"])
+
+    def test_it_fits_small_windows(self):
+        for width, height in ((640, 480), (390, 844), (844, 390), (320, 568),
+                              (200, 160)):
+            small = Browser(width, height, is_phone=True)
+            try:
+                for state in ("", "#layer=5&view=layer", "#layer=5&view=3d"):
+                    small.open(f"file://{self.path('plate.html')}{state}")
+                    self.assertEqual(small.faults, [])
+                    if width < 320:
+                        continue
+                    self.assertLessEqual(small.evaluate(
+                        "document.documentElement.scrollWidth"), width)
+                    for element in ("slider", "readout", "play", "help"):
+                        x, y, w, h = small.place_of(element)
+                        self.assertGreaterEqual(min(x, y), 0)
+                        self.assertLessEqual(x + w, width)
+                        self.assertLessEqual(y + h, height)
+                    self.assertGreater(small.place_of("slider")[2], 200)
+                    self.assertGreaterEqual(small.place_of("slider")[3], 36)
+                    panes = [small.place_of(pane)
+                             for pane in ("solid-pane", "drawing-pane")]
+                    for _, _, w, h in panes:
+                        self.assertTrue(h == 0 or (w > 150 and h > 150))
+            finally:
+                small.close()
 
     def test_the_page_asks_for_nothing(self):
         self.open("plate.html")

@@ -19,9 +19,6 @@ const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
 // "1 island", "3 loose parts".
 const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
-// In mm. Files of layers keep seven digits of a height.
-const heightText = (z) => `${+(+z.toPrecision(7)).toFixed(5)}`;
-
 const rangeText = ({first, last}) => first === last ? `${first}` : `${first}–${last}`;
 
 // Items by what keyOf() says of them, in the order of the first ones.
@@ -71,10 +68,10 @@ class Viewer {
   // Makes the solid, which takes a while, or says why there is none.
   async openSolid() {
     try {
-      await this.solid.open();
-      this.draw();
+      await this.solid.open(() => this.draw());
+      byId("working").hidden = true;
     } catch (error) {
-      byId("solid").hidden = true;
+      byId("solid").hidden = byId("working").hidden = true;
       byId("no-solid").hidden = false;
       byId("no-solid").textContent = error.message;
     }
@@ -87,11 +84,11 @@ class Viewer {
 
   describePart() {
     const {title, estimate, layers, size, volume} = this.part;
-    const [x, y, z] = size.map((length) => length.toFixed(2));
+    const [x, y, z] = size.map((length) => fixed(length, 2));
     byId("title").textContent = title;
     byId("summary").textContent = [
       counted(layers.length, "layer"), `${x} × ${y} × ${z} mm`,
-      `${volume.toFixed(2)} mm³`, ...estimate ? [estimate] : [],
+      `${fixed(volume, 2)} mm³`, ...estimate ? [estimate] : [],
     ].join(" · ");
     byId("theme").innerHTML = kIcons.theme;
     byId("play").innerHTML = kIcons.play;
@@ -151,7 +148,12 @@ class Viewer {
     return item;
   }
 
-  // Goes to a place.
+  // In mm above the bed.
+  heightText({z}) {
+    return fixed(z - this.part.layers[0].bottom, 3);
+  }
+
+  // Goes to a place, and turns the solid so that it is seen.
   visit(place) {
     if (byId("drawing-pane").hidden) this.togglePane("section");
     if (matchMedia(kPhone).matches) this.toggleMarks();
@@ -160,6 +162,7 @@ class Viewer {
     const [x, y] = place.place;
     this.view.show([x - reach, y - reach], [x + reach, y + reach], ...this.room());
     this.isFitted = false;
+    this.solid.turnTo(place.place);
     this.draw();
   }
 
@@ -170,13 +173,13 @@ class Viewer {
     const layer = layers[this.state.index];
     const number = this.state.index + 1;
     byId("number").textContent = `${number} of ${layers.length}`;
-    byId("height").textContent = `${heightText(layer.z)} mm`;
-    byId("area").textContent = `${layer.area.toFixed(4)} mm²`;
+    byId("height").textContent = `${this.heightText(layer)} mm`;
+    byId("area").textContent = `${fixed(layer.area, 4)} mm²`;
     byId("loops").textContent = layer.holes === 0 ? `${layer.loops}` :
       `${layer.loops}, ${layer.holes} of them ${layer.holes === 1 ? "a hole" : "holes"}`;
-    byId("perimeter").textContent = `${layer.perimeter.toFixed(3)} mm`;
-    const words = `Layer ${number} of ${layers.length}, z ${heightText(layer.z)} mm, ` +
-      `area ${layer.area.toFixed(2)} mm²`;
+    byId("perimeter").textContent = `${fixed(layer.perimeter, 3)} mm`;
+    const words = `Layer ${number} of ${layers.length}, z ${this.heightText(layer)} mm above the bed, ` +
+      `area ${fixed(layer.area, 2)} mm²`;
     byId("slider").value = number;
     byId("slider").setAttribute("aria-valuetext", words);
     byId("drawing").setAttribute("aria-label", words);
@@ -224,7 +227,7 @@ class Viewer {
       byId("hint").style.left = `${Math.min(slider.clientWidth - 70,
           Math.max(70, event.offsetX))}px`;
       byId("hint").textContent =
-          `${index + 1}: z ${heightText(layers[index].z)}, ${layers[index].area.toFixed(2)} mm²`;
+          `${index + 1}: z ${this.heightText(layers[index])}, ${fixed(layers[index].area, 2)} mm²`;
     };
     slider.onpointerleave = () => { byId("hint").hidden = true; };
     byId("profile").onwheel = (event) => {
@@ -309,6 +312,14 @@ class Viewer {
     byId("orbit").onclick = () => this.togglePane("orbit");
     byId("theme").onclick = () => this.toggleTheme();
     byId("play").onclick = () => this.play();
+    byId("help").onclick = () => this.toggleKeys();
+    byId("keys").onclick = () => this.toggleKeys();
+  }
+
+  toggleKeys() {
+    const sheet = byId("keys");
+    if (sheet.open) sheet.close();
+    else sheet.showModal();
   }
 
   bindKeys() {
@@ -331,11 +342,12 @@ class Viewer {
       b: () => this.toggle("below"),
       t: () => this.part.found && this.toggleMarks(),
       l: () => this.togglePane("section"), s: () => this.togglePane("orbit"),
-      d: () => this.toggleTheme(), " ": () => this.play(),
+      d: () => this.toggleTheme(), "?": () => this.toggleKeys(), " ": () => this.play(),
       Escape: () => this.isMeasuring && this.toggleMeasure(),
     };
     document.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
+      if (byId("keys").open && event.key !== "?") return;
       const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
       // Space and Enter press the button that has the focus.
       if (!act || (event.key === " " && event.target.tagName === "BUTTON")) return;
@@ -384,7 +396,7 @@ class Viewer {
       this.state.pointer = placeOf(event);
       const [x, y] = this.view.toPart(this.state.pointer);
       byId("pointer").textContent =
-          `x ${(x + this.part.low[0]).toFixed(3)}  y ${(y + this.part.low[1]).toFixed(3)} mm`;
+          `x ${fixed(x + this.part.low[0], 3)}  y ${fixed(y + this.part.low[1], 3)} mm`;
       this.draw();
     };
     canvas.onpointerup = canvas.onpointercancel = (event) => {
@@ -463,8 +475,8 @@ class Viewer {
     const dy = b.place[1] - a.place[1];
     const dz = layers[b.index].z - layers[a.index].z;
     const parts = [["Δx", dx], ["Δy", dy]].concat(dz ? [["Δz", dz]] : []);
-    byId("distance").innerHTML = `${Math.hypot(dx, dy, dz).toFixed(3)} mm <small> ` +
-      parts.map(([name, length]) => `${name} ${length.toFixed(3)}`).join("  ") +
+    byId("distance").innerHTML = `${fixed(Math.hypot(dx, dy, dz), 3)} mm <small> ` +
+      parts.map(([name, length]) => `${name} ${fixed(length, 3)}`).join("  ") +
       "</small>";
   }
 }

@@ -1,132 +1,248 @@
 // The part as a solid, whole or up to the layer in hand, on WebGL. Layers are
 // drawn as the plates that they are, but lit by the slope from layer to layer, so
 // that steps do not show.
+//
+// The work grows with the corners alone: each has two distances looked up, to
+// the layers some way below and above, for the slope; and of a layer's bottom
+// and top only what the next layer leaves free is made at all, by one sweep over
+// the edges of both. A large part is drawn from few layers at first.
 
-const kMostCorners = 150000;  // of all layers drawn: of more, some are left out
-const kFinest = 1 / 4000;     // of the part's size: smaller bends are not drawn
+const kFirst = {finest: 1 / 1000, corners: 12000};  // the finest bends, of the
+const kFull = {finest: 1 / 4000, corners: 150000};  // part's size; and of all layers
+const kSamples = 24;          // layers from which corners are estimated
 const kSlopeLength = .0018;   // of the part's size: slopes are taken over this
 const kSlopeReach = 20;       // such lengths: tops that are level so far are level
 const kSmoothCosine = .8;     // of the angle between edges that make a curve
-const kPieces = 40;           // across the part: larger ones are divided
-const kPatience = 25;         // of the page, while the solid is made [ms]
+const kPieces = 40;           // across the part: longer edges are divided
+const kNarrowest = 1e-5;      // of the part's size: what is narrower is not seen
+const kPatience = 8;          // of the page, while the solid is made [ms]
 
-// How deep places lie in a layer, as far as `reach`; less than 0 outside.
+// How deep places lie in a layer, as far as `reach`; less than 0 outside. A grid
+// of cells has the edges that touch each cell; those near a place are looked at
+// in rings of cells, until no nearer one can come.
 class Depths {
   constructor(contours, reach) {
     this.reach = reach;
-    this.rows = [];
-    const ys = contours.flatMap((loop) => Array.from(loop).filter((_, i) => i % 2));
-    this.low = ys.reduce((a, b) => Math.min(a, b), Infinity);
-    const high = ys.reduce((a, b) => Math.max(a, b), -Infinity);
-    const count = Math.min(256, Math.max(1, ys.length >> 1));
-    this.height = Math.max((high - this.low) / count, 1e-9);
-    if (ys.length === 0) return;
-    this.rows = Array.from({length: count}, () => []);
-    forEdges(contours, (ax, ay, bx, by) => {
-      const rows = [this.rowOf(ay), this.rowOf(by)].sort((a, b) => a - b);
-      for (let row = rows[0]; row <= rows[1]; ++row) {
-        this.rows[row].push(ax, ay, bx, by);
-      }
-    });
+    this.edges = edgesOf(contours);
+    const {edges} = this;
+    const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+    for (let i = 0; i < edges.length; ++i) {
+      low[i % 2] = Math.min(low[i % 2], edges[i]);
+      high[i % 2] = Math.max(high[i % 2], edges[i]);
+    }
+    [this.left, this.low] = low;
+    const [width, height] = edges.length ? [high[0] - low[0], high[1] - low[1]] : [0, 0];
+    this.cell = Math.min(reach / 4,
+        Math.max(reach / 16, Math.sqrt(width * height * 4 / edges.length) || 0));
+    this.columns = Math.floor(width / this.cell) + 1;
+    this.rows = edges.length ? Math.floor(height / this.cell) + 1 : 0;
+    this.fillCells();
+    this.findInside();
   }
 
-  rowOf(y) {
-    return Math.min(this.rows.length - 1,
-        Math.max(0, Math.floor((y - this.low) / this.height)));
+  // Calls visit(cell, edge) for the cells that edges touch; an edge is the place
+  // of its numbers.
+  forCells(visit) {
+    const {edges, cell, columns, rows} = this;
+    const inRange = (value, count) => Math.min(count - 1, Math.max(0, Math.floor(value)));
+    for (let i = 0; i < edges.length; i += 4) {
+      const ax = (edges[i] - this.left) / cell;
+      const ay = (edges[i + 1] - this.low) / cell;
+      const bx = (edges[i + 2] - this.left) / cell;
+      const by = (edges[i + 3] - this.low) / cell;
+      const first = inRange(Math.min(ay, by), rows);
+      const last = inRange(Math.max(ay, by), rows);
+      for (let row = first; row <= last; ++row) {
+        let [from, to] = [ax, bx];
+        if (first < last) {
+          const run = (bx - ax) / (by - ay);
+          const at = (y) => ax + run * (Math.min(Math.max(ay, by), Math.max(Math.min(ay, by), y)) - ay);
+          [from, to] = [at(row), at(row + 1)];
+        }
+        const end = inRange(Math.max(from, to), columns);
+        for (let column = inRange(Math.min(from, to), columns); column <= end; ++column) {
+          visit(row * columns + column, i);
+        }
+      }
+    }
+  }
+
+  // The edges of cell c are listed from begins[c] to begins[c + 1].
+  fillCells() {
+    const begins = new Int32Array(this.rows * this.columns + 1);
+    this.forCells((cell) => ++begins[cell]);
+    for (let i = 1; i < begins.length; ++i) begins[i] += begins[i - 1];
+    this.listed = new Int32Array(begins[begins.length - 1]);
+    this.forCells((cell, edge) => { this.listed[--begins[cell]] = edge; });
+    this.begins = begins;
+  }
+
+  // The winding around the middle of each cell.
+  findInside() {
+    const {edges, cell, columns} = this;
+    this.windings = new Int16Array(this.rows * columns);
+    for (let i = 0; i < edges.length; i += 4) {
+      const ax = (edges[i] - this.left) / cell;
+      const ay = (edges[i + 1] - this.low) / cell;
+      const by = (edges[i + 3] - this.low) / cell;
+      const run = ((edges[i + 2] - this.left) / cell - ax) / (by - ay);
+      const end = Math.ceil(Math.max(ay, by) - .5);
+      for (let row = Math.ceil(Math.min(ay, by) - .5); row < end; ++row) {
+        const column = Math.ceil(ax + run * (row + .5 - ay) - .5);
+        if (column < columns) this.windings[row * columns + column] += by > ay ? -1 : 1;
+      }
+    }
+    for (let i = 0; i < this.windings.length; ++i) {
+      if (i % columns) this.windings[i] += this.windings[i - 1];
+    }
   }
 
   at(x, y) {
-    if (this.rows.length === 0) return -this.reach;
-    const middle = this.rowOf(y);
-    let nearest = this.reach ** 2;
-    let winding = 0;
-    const look = (row, isOwn) => {
-      const edges = this.rows[row];
-      for (let i = 0; i < edges.length; i += 4) {
-        const ax = edges[i];
-        const ay = edges[i + 1];
-        const dx = edges[i + 2] - ax;
-        const dy = edges[i + 3] - ay;
-        const t = Math.min(1, Math.max(0,
-            ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
-        nearest = Math.min(nearest, (x - ax - t * dx) ** 2 + (y - ay - t * dy) ** 2);
-        if (isOwn && (ay <= y) !== (ay + dy <= y) && ax + dx * (y - ay) / dy < x) {
-          winding += dy > 0 ? 1 : -1;
+    const {cell, columns, rows} = this;
+    if (rows === 0) return -this.reach;
+    const column = Math.floor((x - this.left) / cell);
+    const row = Math.floor((y - this.low) / cell);
+    const isInside = column >= 0 && column < columns && row >= 0 && row < rows &&
+      this.windings[row * columns + column] !== 0;
+    this.nearest = this.reach ** 2;
+    this.side = isInside ? 1 : -1;
+    const margin = Math.min(x - this.left - column * cell, y - this.low - row * cell,
+        this.left + (column + 1) * cell - x, this.low + (row + 1) * cell - y);
+    for (let ring = 0; ; ++ring) {
+      const last = Math.min(rows - 1, row + ring);
+      for (let r = Math.max(0, row - ring); r <= last; ++r) {
+        const isEnd = r === row - ring || r === row + ring;
+        const step = isEnd ? 1 : Math.max(1, 2 * ring);
+        for (let c = column - ring; c <= column + ring; c += step) {
+          if (c >= 0 && c < columns) this.look(r * columns + c, x, y);
         }
       }
-    };
-    look(middle, true);
-    for (const step of [-1, 1]) {
-      for (let row = middle + step; row in this.rows; row += step) {
-        const side = this.low + (step < 0 ? row + 1 : row) * this.height;
-        const gap = (side - y) * step;
-        if (gap > 0 && gap * gap >= nearest) break;
-        look(row, false);
-      }
+      if ((ring * cell + margin) ** 2 >= this.nearest) break;
     }
-    return Math.sqrt(nearest) * (winding === 0 ? -1 : 1);
+    return Math.sqrt(this.nearest) * (this.side < 0 ? -1 : 1);
+  }
+
+  // Keeps the nearest edge of a cell. Of two that meet in the nearest corner, the
+  // one that the place is farther beside tells the side.
+  look(cell, x, y) {
+    const {edges, listed} = this;
+    const end = this.begins[cell + 1];
+    for (let i = this.begins[cell]; i < end; ++i) {
+      const edge = listed[i];
+      const px = x - edges[edge];
+      const py = y - edges[edge + 1];
+      const dx = edges[edge + 2] - edges[edge];
+      const dy = edges[edge + 3] - edges[edge + 1];
+      const square = dx * dx + dy * dy;
+      if (square === 0) continue;
+      const t = Math.min(1, Math.max(0, (px * dx + py * dy) / square));
+      const away = (px - t * dx) ** 2 + (py - t * dy) ** 2;
+      if (away > this.nearest * (1 + 1e-9)) continue;
+      const side = (dx * py - dy * px) / Math.sqrt(square);
+      if (away > this.nearest * (1 - 1e-9) && Math.abs(side) <= Math.abs(this.side)) continue;
+      this.nearest = Math.min(this.nearest, away);
+      this.side = side;
+    }
   }
 }
 
-function forEdges(contours, visit) {
+// Edges of loops, as ax, ay, bx, by, …
+function edgesOf(contours) {
+  const edges = new Float64Array(contours.reduce((sum, loop) => sum + 2 * loop.length, 0));
+  let end = 0;
   for (const loop of contours) {
-    const count = loop.length / 2;
-    for (let i = 0; i < count; ++i) {
-      const j = (i + 1) % count;
-      visit(loop[2 * i], loop[2 * i + 1], loop[2 * j], loop[2 * j + 1], loop, i);
+    for (let i = 0; i < loop.length; i += 2) {
+      const j = i + 2 < loop.length ? i + 2 : 0;
+      edges[end++] = loop[i];
+      edges[end++] = loop[i + 1];
+      edges[end++] = loop[j];
+      edges[end++] = loop[j + 1];
     }
   }
+  return edges;
 }
 
-// Calls visit(edge, edge, bottom, top) for trapezoids that cover what the edges
-// enclose: {x, y, x1, y1, …} with y < y1 and their winding.
-function sweep(edges, heights, visit) {
-  edges.sort((a, b) => a.y - b.y);
-  heights.sort((a, b) => a - b);
-  const xAt = (edge, y) => edge.x + (edge.x1 - edge.x) * (y - edge.y) / (edge.y1 - edge.y);
-  let active = [];
+// Calls visit(left, right, bottom, top) for trapezoids that cover what only one
+// of two layers has, if it is no narrower than `least`. Edges are {x, y, x1, y1,
+// winding, …} with y < y1.
+function sweep(below, above, least, visit) {
+  for (const edge of below) edge.layer = 0;
+  for (const edge of above) edge.layer = 1;
+  const edges = [...below, ...above].filter(({winding}) => winding)
+      .sort((a, b) => a.y - b.y);
+  const heights = new Float64Array(2 * edges.length);
+  edges.forEach((edge, i) => {
+    edge.strip = null;
+    heights[2 * i] = edge.y;
+    heights[2 * i + 1] = edge.y1;
+  });
+  heights.sort();
+  const active = [];
   let strips = [];
   let next = 0;
-  const replace = (fresh, height) => {
-    for (const old of strips) {
-      const same = fresh.find((s) => s.left === old.left && s.right === old.right);
-      if (same) same.bottom = old.bottom;
-      else visit(old.left, old.right, old.bottom, height);
+  const close = (height) => {
+    for (const strip of strips) {
+      if (strip.top < height) visit(strip.left, strip.right, strip.bottom, strip.top);
     }
-    strips = fresh;
   };
   for (let i = 0; i + 1 < heights.length; ++i) {
     const bottom = heights[i];
-    if (heights[i + 1] === bottom) continue;
-    const middle = (bottom + heights[i + 1]) / 2;
-    active = active.filter((edge) => edge.y1 > bottom);
+    const top = heights[i + 1];
+    if (top === bottom) continue;
+    // Take the edges of this height, in order.
+    let count = 0;
+    for (const edge of active) if (edge.y1 > bottom) active[count++] = edge;
+    active.length = count;
     while (next < edges.length && edges[next].y <= bottom) active.push(edges[next++]);
-    for (const edge of active) edge.at = xAt(edge, middle);
-    active.sort((a, b) => a.at - b.at);
-    const fresh = [];
-    let winding = 0;
-    for (const edge of active) {
-      if (winding === 0) fresh.push({left: edge, right: edge, bottom});
-      winding += edge.winding;
-      if (winding === 0) fresh[fresh.length - 1].right = edge;
+    const middle = (bottom + top) / 2;
+    for (let k = 0; k < active.length; ++k) {
+      const edge = active[k];
+      edge.at = edge.x + (edge.x1 - edge.x) * (middle - edge.y) / (edge.y1 - edge.y);
+      let place = k;
+      for (; place > 0 && active[place - 1].at > edge.at; --place) {
+        active[place] = active[place - 1];
+      }
+      active[place] = edge;
     }
-    replace(fresh, bottom);
+    // Go on with strips between the same edges, and begin others.
+    const fresh = [];
+    const windings = [0, 0];
+    let left = null;
+    for (const edge of active) {
+      windings[edge.layer] += edge.winding;
+      const isSeen = (windings[0] === 0) !== (windings[1] === 0);
+      if (isSeen === (left !== null)) continue;
+      if (isSeen) {
+        left = edge;
+        continue;
+      }
+      if (edge.at - left.at >= least) {
+        if (!left.strip || left.strip.right !== edge || left.strip.top !== bottom) {
+          left.strip = {left, right: edge, bottom, top};
+        }
+        left.strip.top = top;
+        fresh.push(left.strip);
+      }
+      left = null;
+    }
+    close(top);
+    strips = fresh;
   }
-  replace([], heights[heights.length - 1]);
+  close(Infinity);
 }
 
-// Loops with no edge longer than `longest`.
-function divideEdges(contours, longest) {
-  return contours.map((loop) => {
-    const points = [];
-    forEdges([loop], (ax, ay, bx, by) => {
-      const count = Math.ceil(Math.hypot(bx - ax, by - ay) / longest) || 1;
-      for (let i = 0; i < count; ++i) {
-        points.push(ax + (bx - ax) * i / count, ay + (by - ay) * i / count);
-      }
-    });
-    return points;
-  });
+// A loop with no edge longer than `longest`.
+function divideEdges(loop, longest) {
+  const points = [];
+  const edges = edgesOf([loop]);
+  for (let i = 0; i < edges.length; i += 4) {
+    const [ax, ay, bx, by] = edges.subarray(i, i + 4);
+    const count = Math.ceil(Math.hypot(bx - ax, by - ay) / longest);
+    for (let k = 0; k < count; ++k) {
+      points.push(ax + (bx - ax) * k / count, ay + (by - ay) * k / count);
+    }
+  }
+  return points;
 }
 
 // A loop without the corners that are nearer than `finest` to the line past them
@@ -134,71 +250,124 @@ function divideEdges(contours, longest) {
 function simplify(loop, finest) {
   const count = loop.length / 2;
   const isKept = new Uint8Array(count);
+  let away = 0;
   const farthest = (from, to) => {
-    const [ax, ay] = [loop[2 * from], loop[2 * from + 1]];
-    const [bx, by] = [loop[2 * (to % count)] - ax, loop[2 * (to % count) + 1] - ay];
+    const ax = loop[2 * from];
+    const ay = loop[2 * from + 1];
+    const bx = loop[2 * (to % count)] - ax;
+    const by = loop[2 * (to % count) + 1] - ay;
     const length = Math.hypot(bx, by);
-    let best = [0, from];
+    let best = from;
+    away = 0;
     for (let i = from + 1; i < to; ++i) {
-      const [x, y] = [loop[2 * i] - ax, loop[2 * i + 1] - ay];
-      const away = length > 0 ? Math.abs(x * by - y * bx) / length : Math.hypot(x, y);
-      if (away > best[0]) best = [away, i];
+      const x = loop[2 * i] - ax;
+      const y = loop[2 * i + 1] - ay;
+      const ofThis = length > 0 ? Math.abs(x * by - y * bx) / length : Math.hypot(x, y);
+      if (ofThis > away) [away, best] = [ofThis, i];
     }
     return best;
   };
   isKept[0] = 1;
-  const spans = [[0, farthest(0, count)[1]]];
-  if (spans[0][1] > 0) spans.push([spans[0][1], count]);
+  const opposite = farthest(0, count);
+  const spans = opposite > 0 ? [[0, opposite], [opposite, count]] : [];
   while (spans.length) {
     const [from, to] = spans.pop();
     isKept[from] = 1;
-    const [away, middle] = farthest(from, to);
+    const middle = farthest(from, to);
     if (away > finest) spans.push([from, middle], [middle, to]);
   }
-  return Array.from(loop).filter((_, i) => isKept[i >> 1]);
+  return loop.filter((_, i) => isKept[i >> 1]);
 }
 
-// Corners of all plates: place, and direction of the surface; ordered by layer:
-// sides, then what is seen of the bottom, then of the top. The section, all of
-// it, is apart: it is drawn of the last layer only.
+// The corners of quads: place, and direction of the surface.
+class Quads {
+  constructor() {
+    this.values = new Float32Array(24 << 12);
+    this.end = 0;
+  }
+
+  get count() {
+    return this.end / 24;
+  }
+
+  add(x, y, z, nx, ny, nz) {
+    if (this.end === this.values.length) {
+      const values = new Float32Array(2 * this.end);
+      values.set(this.values);
+      this.values = values;
+    }
+    const {values, end} = this;
+    values[end] = x;
+    values[end + 1] = y;
+    values[end + 2] = z;
+    values[end + 3] = nx;
+    values[end + 4] = ny;
+    values[end + 5] = nz;
+    this.end = end + 6;
+  }
+
+  // A trapezoid between two edges, lit as they are, or from above.
+  addLevel(left, right, y0, y1, z, isSection) {
+    const addAt = (edge, y) => {
+      const t = (y - edge.y) / (edge.y1 - edge.y);
+      const between = (a, b) => a + t * (b - a);
+      const {n, n1} = edge;
+      this.add(between(edge.x, edge.x1), y, z, ...isSection ? [0, 0, 1] :
+        [between(n[0], n1[0]), between(n[1], n1[1]), between(n[2], n1[2])]);
+    };
+    addAt(left, y0);
+    addAt(right, y0);
+    addAt(right, y1);
+    addAt(left, y1);
+  }
+}
+
+// All plates, ordered by layer: what is seen of its bottom and of the top of the
+// layer below, then its sides.
 class PlateMesh {
-  constructor(part) {
-    this.part = part;
-    this.places = [];
-    this.normals = [];
-    this.indices = [];
-    this.sections = [];
-    this.ends = [];  // of a layer: {bottoms, tops, section}, in indices
+  constructor(part, {finest, corners}) {
+    const {layers} = part;
     const length = Math.hypot(...part.size);
+    this.finest = finest * length;
+    this.narrowest = kNarrowest * length;
     this.piece = Math.max(...part.size) / kPieces;
-    let layers = part.layers.map((layer) => ({...layer,
-      drawn: layer.contours.map((loop) => simplify(loop, kFinest * length))
-          .filter((loop) => loop.length > 4)}));
-    const corners = layers.reduce((sum, {drawn}) =>
-      drawn.reduce((ofLayer, loop) => ofLayer + loop.length / 2, sum), 0);
-    this.stride = Math.max(1, Math.ceil(corners / kMostCorners));
+    this.base = layers[0].bottom;
+    this.top = part.size[2];
+    const samples = layers.filter((_, i) => i % Math.ceil(layers.length / kSamples) === 0);
+    this.corners = layers.length / samples.length * samples.reduce((sum, layer) =>
+      sum + this.loopsOf(layer).reduce((ofLayer, loop) => ofLayer + loop.length / 2, 0), 0);
+    this.stride = Math.ceil(this.corners / corners) || 1;
     this.layers = layers.filter((_, i) => i % this.stride === 0);
     this.thickness = part.size[2] / this.layers.length || 1;
     const slope = Math.max(this.thickness, kSlopeLength * length);
     this.half = Math.max(1, Math.round(slope / this.thickness / 2));
     this.reach = kSlopeReach * slope;
     this.depths = [];
+    this.quads = new Quads();
+    this.ends = [];  // of a layer: the quads of it and of those below
+    this.edges = [];
   }
 
-  // Adds all layers, and gives the page its turn now and then.
-  async build() {
-    let begin = performance.now();
+  // Makes it, layer by layer.
+  *build() {
     for (let i = 0; i < this.layers.length; ++i) {
       this.add(i);
       delete this.depths[i - this.half - 1];
-      if (performance.now() - begin < kPatience) continue;
-      await new Promise((resolve) => setTimeout(resolve));
-      begin = performance.now();
+      yield;
     }
-    this.places = new Float32Array(this.places);
-    this.normals = new Float32Array(this.normals);
-    this.sectionBegin = this.indices.length;
-    this.indices = new Uint32Array([this.indices, this.sections].flat());
+    this.addLevels([], this.top);
+    this.depths = [];
+  }
+
+  // What is drawn of a layer's contours.
+  loopsOf(layer) {
+    return layer.contours.map((loop) => simplify(loop, this.finest))
+        .filter((loop) => loop.length > 4).map((loop) => divideEdges(loop, this.piece));
+  }
+
+  // Of a layer's plate, or above all of them their top.
+  bottomOf(i) {
+    return i < this.layers.length ? this.layers[i].bottom - this.base : this.top;
   }
 
   // Of a layer; those beyond the stack are empty.
@@ -208,93 +377,87 @@ class PlateMesh {
   }
 
   add(i) {
-    const base = this.part.layers[0].bottom;
-    const layer = this.layers[i];
-    const next = this.layers[i + 1];
-    const low = layer.bottom - base;
-    const high = (next ? next.bottom : layer.top) - base;
-    const [below, above] = [this.depthsOf(i - 1), this.depthsOf(i + 1)];
+    const [low, high] = [this.bottomOf(i), this.bottomOf(i + 1)];
+    const edges = this.edgesAt(i);
+    this.addLevels(edges, low);
+    for (const {x, y, x1, y1, n, n1} of edges) {
+      this.quads.add(x, y, low, ...n);
+      this.quads.add(x1, y1, low, ...n1);
+      this.quads.add(x1, y1, high, ...n1);
+      this.quads.add(x, y, high, ...n);
+    }
+    this.ends.push(this.quads.count);
+  }
+
+  // Adds what only one of two layers has, at the height between them.
+  addLevels(edges, z) {
+    const below = this.edges;
+    this.edges = edges;
+    const isSame = (edge, i) =>
+      ["x", "y", "x1", "y1", "winding"].every((name) => edge[name] === below[i][name]);
+    if (edges.length === below.length && edges.every(isSame)) return;
+    sweep(below, edges, this.narrowest, (left, right, y0, y1) =>
+      this.quads.addLevel(left, right, y0, y1, z));
+  }
+
+  // The edges of a layer, with the surface's direction at their ends.
+  edgesAt(i) {
     const [from, to] = [this.depthsOf(i - this.half), this.depthsOf(i + this.half)];
     const slopeAt = (x, y) =>
       (from.at(x, y) - to.at(x, y)) / (2 * this.half * this.thickness);
+    return this.litEdges(this.layers[i], slopeAt);
+  }
+
+  litEdges(layer, slopeAt) {
     const edges = [];
-    const heights = [];
-    for (const loop of divideEdges(layer.drawn, this.piece)) {
-      const slopes = Array.from({length: loop.length / 2},
-          (_, k) => slopeAt(loop[2 * k], loop[2 * k + 1]));
-      forEdges([loop], (ax, ay, bx, by, _, k) => {
-        const a = this.direction(loop, k, k, slopes);
-        const b = this.direction(loop, k, (k + 1) % slopes.length, slopes);
-        this.quad(this.indices, [ax, ay, low], a, [bx, by, low], b,
-            [bx, by, high], b, [ax, ay, high], a);
-        heights.push(ay);
-        if (ay < by) edges.push({x: ax, y: ay, x1: bx, y1: by, n: a, n1: b, winding: -1});
-        if (ay > by) edges.push({x: bx, y: by, x1: ax, y1: ay, n: b, n1: a, winding: 1});
+    for (const loop of this.loopsOf(layer)) {
+      const sides = edgesOf([loop]);
+      const count = sides.length / 4;
+      const outward = Array.from({length: count}, (_, k) => {
+        const dx = sides[4 * k + 2] - sides[4 * k];
+        const dy = sides[4 * k + 3] - sides[4 * k + 1];
+        const length = Math.hypot(dx, dy) || 1;
+        return [dy / length, -dx / length];
       });
+      const slopes = outward.map((_, k) => slopeAt(sides[4 * k], sides[4 * k + 1]));
+      // At a corner, the direction of the edge, or else that of the curve.
+      const directionAt = (edge, corner) => {
+        const [x, y] = outward[edge];
+        const [ox, oy] = outward[corner === edge ? (edge || count) - 1 : corner];
+        const length = x * ox + y * oy > kSmoothCosine ? Math.hypot(x + ox, y + oy) : 0;
+        return length ? [(x + ox) / length, (y + oy) / length, slopes[corner]] :
+          [x, y, slopes[corner]];
+      };
+      for (let k = 0; k < count; ++k) {
+        const [ax, ay, bx, by] = sides.subarray(4 * k, 4 * k + 4);
+        const [a, b] = [directionAt(k, k), directionAt(k, (k + 1) % count)];
+        edges.push(ay <= by ?
+          {x: ax, y: ay, x1: bx, y1: by, n: a, n1: b, winding: ay < by ? -1 : 0,
+            layer: 0, at: 0, strip: null} :
+          {x: bx, y: by, x1: ax, y1: ay, n: b, n1: a, winding: 1, layer: 0, at: 0, strip: null});
+      }
     }
-    const caps = [];
-    if (heights.length) sweep(edges, heights, (...cap) => caps.push(cap));
-    for (const cap of caps) this.addCap(cap, low, below, slopeAt);
-    const bottoms = this.indices.length;
-    for (const cap of caps) this.addCap(cap, high, above, slopeAt);
-    for (const [left, right, y0, y1] of caps) {
-      this.quad(this.sections, ...[[left, y0], [right, y0], [right, y1], [left, y1]]
-          .flatMap(([edge, y]) => [[...this.onEdge(edge, y).slice(0, 2), high], [0, 0, 1]]));
-    }
-    this.ends.push({bottoms, tops: this.indices.length, section: this.sections.length});
+    return edges;
   }
 
-  // Where an edge is at a height, and its surface's direction there: x, y, nx, ny.
-  onEdge(edge, y) {
-    const t = (y - edge.y) / (edge.y1 - edge.y);
-    return [edge.x + t * (edge.x1 - edge.x), y,
-      edge.n[0] + t * (edge.n1[0] - edge.n[0]), edge.n[1] + t * (edge.n1[1] - edge.n[1])];
+  // The section at the top of a layer, which may be one that is left out, as quads.
+  sectionOf(layer) {
+    const quads = new Quads();
+    const z = layer.top - this.base;
+    sweep(this.litEdges(layer, () => 0), [], 0, (left, right, y0, y1) =>
+      quads.addLevel(left, right, y0, y1, z, true));
+    return quads;
   }
+}
 
-  // What the neighbouring layer leaves free of a trapezoid, in pieces.
-  addCap([left, right, y0, y1], z, cover, slopeAt) {
-    const ends = [y0, y1].map((y) => [this.onEdge(left, y), this.onEdge(right, y)]);
-    const width = Math.max(...ends.map(([a, b]) => b[0] - a[0]));
-    const count = Math.ceil(width / this.piece) || 1;
-    const reach = Math.min(Math.hypot(width / count, y1 - y0), .999 * cover.reach);
-    const columns = Array.from({length: count + 1}, (_, i) => ends.map(([a, b]) => {
-      const [x, y, nx, ny] = a.map((value, k) => value + (b[k] - value) * i / count);
-      return {place: [x, y, z], normal: [nx, ny, slopeAt(x, y)],
-        isCovered: cover.at(x, y) >= reach};
-    }));
-    for (let i = 0; i < count; ++i) {
-      const corners = [columns[i][0], columns[i + 1][0], columns[i + 1][1], columns[i][1]];
-      if (corners.every((corner) => corner.isCovered)) continue;
-      this.quad(this.indices, ...corners.flatMap(({place, normal}) => [place, normal]));
-    }
-  }
-
-  // Of the surface at a corner of edge i: the edge's, or that of the curve.
-  direction(loop, i, corner, slopes) {
-    const count = loop.length / 2;
-    const outward = (k) => {
-      const j = (k + 1) % count;
-      const dx = loop[2 * j] - loop[2 * k];
-      const dy = loop[2 * j + 1] - loop[2 * k + 1];
-      const length = Math.hypot(dx, dy) || 1;
-      return [dy / length, -dx / length];
-    };
-    let [x, y] = outward(i);
-    const [ox, oy] = outward(corner === i ? (i + count - 1) % count : corner);
-    if (x * ox + y * oy > kSmoothCosine) {
-      const length = Math.hypot(x + ox, y + oy);
-      [x, y] = [(x + ox) / length, (y + oy) / length];
-    }
-    return [x, y, slopes[corner]];
-  }
-
-  quad(indices, ...corners) {
-    const first = this.places.length / 3;
-    for (let i = 0; i < 8; i += 2) {
-      this.places.push(...corners[i]);
-      this.normals.push(...corners[i + 1]);
-    }
-    indices.push(first, first + 1, first + 2, first, first + 2, first + 3);
+// Runs what yields between its steps while the page has nothing else to do.
+async function runInIdleTime(steps) {
+  let end = 0;
+  for (const _ of steps) {
+    if (performance.now() < end) continue;
+    await new Promise((resolve) => window.requestIdleCallback ?
+      requestIdleCallback(resolve, {timeout: 100}) : setTimeout(resolve));
+    end = performance.now() + kPatience;
   }
 }
 
@@ -388,24 +551,32 @@ class Solid {
     this.zoomed = 1;
   }
 
-  // Makes what is drawn. Throws where there is no WebGL.
-  async open() {
+  // Makes what is drawn, a rough solid first where the full one takes long, and
+  // calls draw() with each. Throws where there is no WebGL.
+  async open(draw) {
     const gl = this.canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
     if (!gl) throw new Error("This browser has no WebGL 2, or has it turned off: no solid.");
-    const mesh = new PlateMesh(this.part);
-    await mesh.build();
-    this.mesh = mesh;
     this.lit = this.program(gl, kFragmentShader);
     this.flat = this.program(gl, kFlatShader);
-    this.surface = this.corners(gl, mesh.places, mesh.normals);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.indices, gl.STATIC_DRAW);
-    this.marks = this.corners(gl, this.markPlaces());
-    this.outline = this.corners(gl, new Float32Array());
+    this.surface = this.corners(gl, true);
+    this.section = this.corners(gl, true);
+    this.outline = this.corners(gl);
+    this.marks = this.corners(gl);
+    this.fill(gl, this.marks, this.markPlaces());
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     this.gl = gl;
+    const full = new PlateMesh(this.part, kFull);
+    const meshes = full.corners > 2 * kFirst.corners ?
+      [new PlateMesh(this.part, kFirst), full] : [full];
+    for (const mesh of meshes) {
+      await runInIdleTime(mesh.build());
+      this.mesh = mesh;
+      this.cut = null;
+      this.fillQuads(gl, this.surface, mesh.quads);
+      draw();
+    }
   }
 
   program(gl, fragmentShader) {
@@ -423,18 +594,31 @@ class Solid {
     return program;
   }
 
-  // A vertex array of places, and of normals where there are any.
-  corners(gl, ...arrays) {
+  // A vertex array of places, and of directions where it is lit.
+  corners(gl, isLit = false) {
     const corners = gl.createVertexArray();
     gl.bindVertexArray(corners);
-    arrays.forEach((data, at) => {
-      corners.buffer = gl.createBuffer();
-      gl.bindBuffer(gl.ARRAY_BUFFER, corners.buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
-      gl.vertexAttribPointer(at, 3, gl.FLOAT, false, 0, 0);
+    corners.buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, corners.buffer);
+    for (const at of isLit ? [0, 1] : [0]) {
+      gl.vertexAttribPointer(at, 3, gl.FLOAT, false, isLit ? 24 : 12, 12 * at);
       gl.enableVertexAttribArray(at);
-    });
+    }
+    if (isLit) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
     return corners;
+  }
+
+  fill(gl, corners, data) {
+    gl.bindVertexArray(corners);
+    gl.bindBuffer(gl.ARRAY_BUFFER, corners.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+  }
+
+  fillQuads(gl, corners, quads) {
+    this.fill(gl, corners, quads.values.subarray(0, quads.end));
+    const indices = new Uint32Array(6 * quads.count);
+    for (let i = 0; i < indices.length; ++i) indices[i] = 4 * Math.floor(i / 6) + [0, 1, 2, 0, 2, 3][i % 6];
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
   }
 
   markPlaces() {
@@ -446,6 +630,15 @@ class Solid {
   turn(dx, dy) {
     this.yaw += dx * .008;
     this.pitch = Math.min(1.57, Math.max(-1.57, this.pitch + dy * .008));
+  }
+
+  // Brings a place to the side of the viewer, who looks from above: the cut at
+  // its layer leaves nothing between. The whole solid is in the picture.
+  turnTo([x, y]) {
+    const [width, depth] = this.part.size;
+    this.yaw = -Math.PI / 2 - Math.atan2(y - depth / 2, x - width / 2);
+    this.pitch = .6;
+    this.zoomed = Math.min(this.zoomed, 1);
   }
 
   // How far the eye must be for the part to fit, whichever way it is turned
@@ -497,15 +690,19 @@ class Solid {
     gl.bindVertexArray(this.surface);
     const at = isWhole ? mesh.ends.length - 1 :
       Math.min(mesh.ends.length - 1, Math.floor(index / mesh.stride));
-    const end = mesh.ends[at];
-    const isCut = at + 1 < mesh.ends.length;
-    gl.drawElements(gl.TRIANGLES, isCut ? end.bottoms : end.tops, gl.UNSIGNED_INT, 0);
+    const isCut = !isWhole && index + 1 < part.layers.length;
+    gl.drawElements(gl.TRIANGLES, 6 * (isCut ? mesh.ends[at] : mesh.quads.count),
+        gl.UNSIGNED_INT, 0);
     const paint = use(this.flat, 0);
     if (isCut) {
-      const begin = at > 0 ? mesh.ends[at - 1].section : 0;
+      if (this.cut !== index) {
+        this.cut = index;
+        this.sectionQuads = mesh.sectionOf(part.layers[index]);
+        this.fillQuads(gl, this.section, this.sectionQuads);
+      }
+      gl.bindVertexArray(this.section);
       paint(kGold.map((value) => .25 + .75 * value ** (1 / 2.2)), 1);
-      gl.drawElements(gl.TRIANGLES, end.section - begin, gl.UNSIGNED_INT,
-          4 * (mesh.sectionBegin + begin));
+      gl.drawElements(gl.TRIANGLES, 6 * this.sectionQuads.count, gl.UNSIGNED_INT, 0);
     }
     paint(rgbOf(color("outline")), 1);
     this.drawOutline(index);
@@ -516,11 +713,12 @@ class Solid {
     const {gl, part} = this;
     const layer = part.layers[index];
     const z = layer.top - part.layers[0].bottom;
-    const lines = [];
-    forEdges(layer.contours, (ax, ay, bx, by) => lines.push(ax, ay, z, bx, by, z));
-    gl.bindVertexArray(this.outline);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.outline.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(lines), gl.DYNAMIC_DRAW);
+    const edges = edgesOf(layer.contours);
+    const lines = new Float32Array(edges.length * 3 / 2);
+    for (let i = 0; i < lines.length; ++i) {
+      lines[i] = i % 3 === 2 ? z : edges[2 * Math.floor(i / 3) + i % 3];
+    }
+    this.fill(gl, this.outline, lines);
     gl.drawArrays(gl.LINES, 0, lines.length / 3);
   }
 

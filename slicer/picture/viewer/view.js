@@ -9,10 +9,15 @@ function roundLength(longest) {
       .find((length) => length <= longest * (1 + 1e-9));
 }
 
+// With so many digits; nothing is -0.
+function fixed(value, digits) {
+  const text = value.toFixed(digits);
+  return /[1-9]/.test(text) ? text : text.replace("-", "");
+}
+
 // As few digits as a ruler of that step needs.
 function rulerText(value, step) {
-  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return (Math.abs(value) < step / 2 ? 0 : value).toFixed(digits);
+  return fixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
 }
 
 function color(name) {
@@ -59,10 +64,10 @@ class View {
 
   // Shows the box in the free area of the canvas.
   show([x0, y0], [x1, y1], width, height) {
-    const margin = Math.min(60, width / 10);
+    const margin = Math.min(60, width / 10, height / 10);
     this.scale = Math.min(
-        (width - kRuler - 2 * margin) / Math.max(x1 - x0, 1e-6),
-        (height - kRuler - 2 * margin) / Math.max(y1 - y0, 1e-6));
+        Math.max(width - kRuler - 2 * margin, 1) / Math.max(x1 - x0, 1e-6),
+        Math.max(height - kRuler - 2 * margin, 1) / Math.max(y1 - y0, 1e-6));
     this.x = (width + kRuler - (x0 + x1) * this.scale) / 2;
     this.y = (height + kRuler + (y0 + y1) * this.scale) / 2;
   }
