@@ -216,12 +216,12 @@ std::string shell_word(const std::string& word) {
 }
 
 // The given options that check has, too, each behind a blank.
-std::string check_words(const OptionList& options) {
+std::string check_words(const std::vector<GivenOption>& given) {
   OptionList known;
   const std::unique_ptr<Command> check = make_check_command();
   check->add_options(known);
   std::string words;
-  for (const GivenOption& option : options.given()) {
+  for (const GivenOption& option : given) {
     if (option.name == "--quiet" || !known.find(option.name)) continue;
     for (const std::string& word : option.words) {
       words += " " + option.name;
@@ -262,7 +262,7 @@ class SliceCommand : public Command {
     add_output_options(options, request_, output_);
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
-    options.on_read([this, &options] { check_words_ = check_words(options); });
+    options.on_read([this, &options] { given_ = options.given(); });
   }
 
   void check() override {
@@ -302,10 +302,11 @@ class SliceCommand : public Command {
 
  private:
   Closing closing() const {
-    return {output_.report,
-            fmt::format("lamina check {}{}",
-                        shell_word(display_path(request_.design.path)),
-                        check_words_)};
+    return {output_.report, [this] {
+              return fmt::format("lamina check {}{}",
+                                 shell_word(display_path(request_.design.path)),
+                                 check_words(given_));
+            }};
   }
 
   std::string extension() const {
@@ -389,7 +390,7 @@ class SliceCommand : public Command {
   }
 
   std::vector<std::string> designs_;
-  std::string check_words_;    // of the options that check has, too
+  std::vector<GivenOption> given_;
   compiler::Request request_;  // of each
   bool is_quiet_ = false;
   OutputOptions output_;

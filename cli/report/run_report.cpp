@@ -222,16 +222,16 @@ std::string report_text(const compiler::Compilation& compilation,
 
 // "print: 2 islands; see lamina check ring.scad"
 std::string print_line(const compiler::Report& report,
-                       const std::string& check) {
+                       const std::function<std::string()>& check) {
   const auto& print = report.slice.print;
   if (!print) return {};
   const std::string counts = finding_counts(*print);
   const bool is_any = std::ranges::any_of(
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
-  return is_any
-             ? fmt::format("\nprint: {}; for where, run:\n  {}", counts, check)
-             : fmt::format("\nprint: {}", counts);
+  return is_any ? fmt::format("\nprint: {}; for where, run:\n  {}", counts,
+                              check())
+                : fmt::format("\nprint: {}", counts);
 }
 
 std::string machine_line(const compiler::Report& report) {
@@ -242,7 +242,8 @@ std::string machine_line(const compiler::Report& report) {
 
 // "ring.slc: 98 layers, 810 loops, …"
 std::string summary_line(const compiler::Compilation& compilation,
-                         const std::string& check, double earlier_seconds) {
+                         const std::function<std::string()>& check,
+                         double earlier_seconds) {
   const std::string& output = compilation.request.output.path;
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;

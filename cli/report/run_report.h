@@ -2,6 +2,7 @@
 // What a compilation cost: the closing line on the terminal and `--report`.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -41,8 +42,9 @@ std::string feature_lines(const compiler::Compilation& compilation);
 // What a run says at its end.
 struct Closing {
   std::string report;  // path of --report; empty: none
-  // The words that look at the same print: "lamina check ring.scad -D n=2".
-  std::string check;
+  // Returns the words that look at the same print: "lamina check ring.scad -D
+  // n=2". To find them takes longer than some designs.
+  std::function<std::string()> check;
 };
 
 // compile(), and then what a compilation that made layers says of itself: the

@@ -297,16 +297,19 @@ class OverhangSearch {
   void search_part(const Ledge& ledge, const Cursor& lower, const Cursor& upper,
                    double left, double right) {
     const double area = overhang_.area;
-    const double first = std::ceil(left / pitch_);
-    const double end = std::ceil(right / pitch_);
-    const double least = least_step(end - first);
+    const double least = least_step((right - left) / pitch_);
     double columns = 1;
-    for (double column = first; column < end;) {
-      columns = std::min(columns, end - column);
+    for (double column = std::ceil(left / pitch_); column * pitch_ < right;) {
+      if (columns > 1) {
+        columns = std::min(columns, std::ceil(right / pitch_) - column);
+      }
       const double beyond =
           search_column(ledge, lower, upper, column * pitch_, columns);
       column += columns;
-      columns = std::max(least, std::floor(kStride / 2 * beyond / pitch_));
+      columns = least;
+      if (beyond > 0) {
+        columns = std::max(least, std::floor(kStride / 2 * beyond / pitch_));
+      }
     }
     for (const Cursor* const cursor : {&lower, &upper}) {
       if (cursor->right() != right) continue;
@@ -329,7 +332,7 @@ class OverhangSearch {
   // A part has straight sides: so many columns, and places in one, tell of any.
   static double least_step(double count) {
     constexpr double kMost = 64;
-    return std::max(1.0, std::floor(count / kMost));
+    return count < 2 * kMost ? 1.0 : std::floor(count / kMost);
   }
 
   // Returns how far beyond the reach the farthest place is that was asked.
