@@ -281,7 +281,7 @@ class ViewerTest(unittest.TestCase):
         checked = lamina("check", self.path("figure.scad"), "--layer", "0.1",
                          status=1)
         counts = re.search("print: (.*)", checked)[1].split(" (")[0]
-        self.assertIn("2 islands", counts)
+        self.assertIn("2 loose parts", counts)
         self.assertIn("1 resin trap", counts)
         self.open("figure.html")
         headings = self.browser.evaluate(
