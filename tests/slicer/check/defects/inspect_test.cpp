@@ -29,7 +29,7 @@ using Words = std::vector<std::string>;
 
 TEST(Inspector, SearchesLoopsForDefectsWhereItIsAsked) {
   for (const bool finds_defects : {false, true}) {
-    Inspector inspector({.finds_defects = finds_defects});
+    Inspector inspector({.finds_defects = finds_defects, .print = {}});
     inspector.take(
         layer_at(0, 1, {{{0, 0}, {5, 5}, {5, 0}, {0, 5}}}));  // crosses itself
     const Inspection found = inspector.finish("a", {});
