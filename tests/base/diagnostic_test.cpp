@@ -87,11 +87,11 @@ TEST(SyntaxErrors, ShowTheBracketThatWasLeftOpen) {
             "    1 | for (i = [0:1:10) cube(i);\n"
             "      |          ^\n");
   EXPECT_EQ(terminal_text("if (x) {\n  cube(1);\n"),
-            "x.scad:4:1: error: Parser error: syntax error\n"
-            "x.scad:2:10: note: unexpected end of the file, expected ';', '{', "
-            "'}' or a module\n"
+            "x.scad:2:11: error: Parser error: syntax error\n"
             "    2 |   cube(1);\n"
-            "      |          ^\n"
+            "      |           ^\n"
+            "note: unexpected end of the file, expected ';', '{', '}' or a "
+            "module\n"
             "x.scad:1:8: note: opened here\n"
             "    1 | if (x) {\n"
             "      |        ^\n");
@@ -99,7 +99,9 @@ TEST(SyntaxErrors, ShowTheBracketThatWasLeftOpen) {
 
 TEST(SyntaxErrors, ShowWhereAStringBegins) {
   EXPECT_EQ(terminal_text("x = \"abc\n"),
-            "x.scad:4:1: error: Parser error: Unterminated string\n"
+            "x.scad:1:9: error: Parser error: Unterminated string\n"
+            "    1 | x = \"abc\n"
+            "      |         ^\n"
             "x.scad:1:5: note: it begins here\n"
             "    1 | x = \"abc\n"
             "      |     ^\n");

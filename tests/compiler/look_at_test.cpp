@@ -59,7 +59,7 @@ TEST(LookAt, SeesTheSameInADesignAndInItsLayers) {
   ASSERT_TRUE(design.found.print && file.found.print);
   ASSERT_EQ(design.found.print->findings.size(),
             file.found.print->findings.size());
-  EXPECT_GT(design.found.print->count(slicer::FindingKind::kIsland), 0U);
+  EXPECT_GT(design.found.print->count(slicer::FindingKind::kLoosePart), 0U);
   // A file does not know the lines of its design.
   EXPECT_EQ(design.lines.findings.size(), design.found.print->findings.size());
   EXPECT_TRUE(file.lines.findings.empty());
