@@ -90,13 +90,11 @@ void expect_signals(int /*argc*/, char** /*argv*/, char** /*environment*/) {
 // Returns the exit status.
 int run_program(int argc, char** argv) {
   std::vector<const char*> words(argv, argv + argc);
-  // As other programs have them: help, help COMMAND, version.
+  // As other programs have them: help, help COMMAND, version, slice.
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first == "version") words = {argv[0], "--version"};
-  if (first == "help") {
-    words.erase(words.begin() + 1);
-    words.push_back("--help");
-  }
+  if (first == "help" || first == "slice") words.erase(words.begin() + 1);
+  if (first == "help") words.push_back("--help");
   std::unique_ptr<Command> command;
   for (const NamedCommand& named : kNamedCommands) {
     if (words.size() > 1 && words[1] == named.name) command = named.make();

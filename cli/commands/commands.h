@@ -56,7 +56,6 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"materials", make_materials_command},
     NamedCommand{"parts", make_parts_command},
     NamedCommand{"printers", make_printers_command},
-    NamedCommand{"slice", make_slice_command},
     NamedCommand{"view", make_view_command}};
 
 }  // namespace lamina::cli
