@@ -16,12 +16,9 @@
 namespace lamina {
 
 void fail_to_write(const std::string& path, int error) {
-  const bool is_output = path == "-";
-  const std::string words =
-      fmt::format("Can't write '{}': {}", is_output ? "standard output" : path,
-                  std::strerror(error));
-  if (is_output && error == EPIPE) throw ReaderGone(words);
-  throw FileError(words);
+  throw FileError(fmt::format("Can't write '{}': {}",
+                              path == "-" ? "standard output" : path,
+                              std::strerror(error)));
 }
 
 OutputFile OutputFile::open(std::string path, TemporaryFiles& temporary_files) {

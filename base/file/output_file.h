@@ -20,11 +20,6 @@
 
 namespace lamina {
 
-// Thrown where nobody reads standard output any more, as behind `| head`.
-struct ReaderGone : FileError {
-  using FileError::FileError;
-};
-
 // Throws for what write_all() returned; "-" is standard output.
 [[noreturn]] void fail_to_write(const std::string& path, int error);
 

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "base/file/open_file.h"
-#include "base/file/output_file.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/process/exit_status.h"
@@ -97,8 +96,6 @@ int run_caught(Terminal& terminal, const std::vector<const Diagnostics*>& shown,
   } catch (const RequestError& error) {
     terminal.show(error.diagnostic());
     return kUsageFault;
-  } catch (const ReaderGone&) {
-    return kInterrupted;
   } catch (const Error& error) {
     const bool is_shown =
         std::ranges::any_of(shown, [&](const Diagnostics* messages) {
