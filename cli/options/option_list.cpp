@@ -208,14 +208,15 @@ Option OptionList::names(const std::string& name, const std::string& what,
 Option OptionList::choice(const std::string& name,
                           const std::vector<std::string>& words,
                           const Use& use) {
-  return Option(*app_->add_option_function<std::string>(name, use)
-                     ->type_name("word")
-                     ->check([words](const std::string& word) {
-                       return std::ranges::find(words, word) != words.end()
-                                  ? ""
-                                  : fmt::format("expected {}, not '{}'",
-                                                fmt::join(words, ", "), word);
-                     }));
+  const auto fault_of = [words](const std::string& word) -> std::string {
+    if (std::ranges::find(words, word) != words.end()) return "";
+    return fmt::format("expected {}, not '{}'", fmt::join(words, ", "), word);
+  };
+  // Completions read the words from the description.
+  return Option(
+      *app_->add_option_function<std::string>(name, use)
+           ->type_name("word")
+           ->check(fault_of, fmt::format("{{{}}}", fmt::join(words, ","))));
 }
 
 Option OptionList::boolean(const std::string& name, bool& target) {
