@@ -147,6 +147,14 @@ std::optional<std::string> Loader::read(const std::string& path) const {
   return text;
 }
 
+std::optional<std::string> Loader::read_design(const std::string& path) const {
+  const std::string file = path == "-" ? "/dev/stdin" : path;
+  if (access_.is_regular_file(file)) return read(file);
+  auto text = access_.read(file);
+  if (text && text->size() > kLargestText) return std::nullopt;
+  return text;
+}
+
 const Source* Loader::open_include(const std::string& path) {
   const auto known = included_.find(path);
   if (known != included_.end()) return known->second;
@@ -160,9 +168,7 @@ const Source* Loader::open_include(const std::string& path) {
 ast::Program Loader::load(const std::string& path) {
   access_.require(path);
   errno = 0;
-  std::optional<std::string> text =
-      path == "-" ? access_.read("/dev/stdin") : read(path);
-  if (!text && errno == 0) text = access_.read(path);  // a pipe
+  std::optional<std::string> text = read_design(path);
   if (!text) {
     Diagnostic missing{
         Severity::kError, {}, "Can't open input file '" + path + "'!"};

@@ -100,6 +100,8 @@ class Loader {
                       std::span<const Source* const> open) const;
   void add_file(const std::string& path);
   std::optional<std::string> read(const std::string& path) const;
+  // The design itself may come from standard input ("-") or a pipe.
+  std::optional<std::string> read_design(const std::string& path) const;
 
   SourceStore& sources_;
   Diagnostics& diagnostics_;
