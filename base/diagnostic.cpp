@@ -61,13 +61,6 @@ std::string printable(std::string_view text) {
   return result;
 }
 
-// Columns that UTF-8 text takes, double width neglected.
-std::size_t width(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(),
-      [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80; }));
-}
-
 // The line of `range` and carets below it, to the end of that line at most.
 void append_carets(std::string& text, SourceRange range) {
   constexpr std::size_t kWidest = 200;  // bytes; longer lines are not shown
@@ -80,8 +73,9 @@ void append_carets(std::string& text, SourceRange range) {
       std::min<std::size_t>(place.column - 1, line.size());
   const std::size_t end = std::clamp<std::size_t>(
       begin + (range.end - range.begin), begin, line.size());
-  const std::size_t indent = width(printable(line.substr(0, begin)));
-  const std::size_t length = width(printable(line.substr(begin, end - begin)));
+  const std::size_t indent = utf8_width(printable(line.substr(0, begin)));
+  const std::size_t length =
+      utf8_width(printable(line.substr(begin, end - begin)));
   text += fmt::format("{:>5} | {}\n      | {:{}}^{:~>{}}\n", place.line, shown,
                       "", indent, "", length > 0 ? length - 1 : 0);
 }
@@ -99,16 +93,11 @@ std::string shown_message(const Diagnostic& diagnostic) {
              : with_display_paths(diagnostic.message);
 }
 
-// Where a file ends, behind its last letter. OpenSCAD's parser finds the end
-// below that.
+// A place in the file: OpenSCAD's parser finds its end below that.
 SourceRange within_file(SourceRange range) {
   if (!range.is_written() || range.is_defined_by_option()) return range;
-  const std::string_view all = range.source->text();
-  const std::string_view file = all.substr(0, all.rfind(kEndOfFile));
-  const auto end =
-      static_cast<std::uint32_t>(file.find_last_not_of(" \t\r\n") + 1);
-  if (range.begin < end) return range;
-  return {range.source, end, end};
+  const std::uint32_t end = range.source->file_end();
+  return range.begin < end ? range : SourceRange{range.source, end, end};
 }
 
 void append_terminal_text(std::string& text, SourceRange range,

@@ -36,6 +36,8 @@ Source::Source(std::string path, std::string text, bool is_implied)
   if (mark != std::string::npos && mark + kEndOfFile.size() < text_.size()) {
     definitions_begin_ = mark + kEndOfFile.size();
   }
+  const std::string_view file = std::string_view(text_).substr(0, mark);
+  file_end_ = static_cast<std::uint32_t>(file.find_last_not_of(" \t\r\n") + 1);
 }
 
 std::uint32_t Source::openscad_line(std::uint32_t offset) const {

@@ -46,6 +46,9 @@ class Source {
   // Where the definitions of `-D` begin; npos where there are none.
   std::size_t definitions_begin() const { return definitions_begin_; }
 
+  // Behind the last letter of the file, which stands before them.
+  std::uint32_t file_end() const { return file_end_; }
+
   // Line `line` (from 1) without its line break.
   std::string_view line_text(std::uint32_t line) const;
 
@@ -53,6 +56,7 @@ class Source {
   std::string path_;
   std::string text_;
   std::size_t definitions_begin_ = std::string::npos;
+  std::uint32_t file_end_ = 0;
   std::vector<std::uint32_t> line_starts_;
   bool has_returns_ = false;
   bool is_implied_ = false;

@@ -1,5 +1,7 @@
 #include "base/utf8.h"
 
+#include <algorithm>
+
 #include <utf8.h>
 
 namespace lamina {
@@ -43,6 +45,11 @@ std::size_t character_length(std::string_view text) {
 bool is_valid_utf8(std::string_view text) {
   return utf8::is_valid(text.begin(), text.end()) &&
          text.find('\0') == std::string_view::npos;
+}
+
+std::size_t utf8_width(std::string_view text) {
+  return text.size() -
+         static_cast<std::size_t>(std::ranges::count_if(text, is_continuation));
 }
 
 std::uint32_t first_code_point(std::string_view text) {

@@ -20,6 +20,9 @@ inline std::uint32_t utf8_length(char lead) {
   return byte < 0xFC ? 5 : 6;
 }
 
+// Columns that the text takes, double width neglected.
+std::size_t utf8_width(std::string_view text);
+
 // Bytes of the well-formed character at the beginning of `text`, which is not
 // empty; 0 where there is none.
 std::size_t character_length(std::string_view text);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "base/utf8.h"
 
 namespace lamina::cli {
 namespace {
@@ -86,13 +87,6 @@ std::vector<Row> shortened(std::vector<Row> rows) {
   return rows;
 }
 
-// Of UTF-8 without double width.
-std::size_t columns(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80;
-  }));
-}
-
 void append_row(const Row& row, std::string& text) {
   constexpr std::size_t kWidest = 80;
   const Finding& worst = *row.greatest;
@@ -108,7 +102,7 @@ void append_row(const Row& row, std::string& text) {
       fmt::format("{:>15} {:>9} {:>8.3f} {:>8.2f} {:>8.2f}",
                   counted(row.count, name_of(worst.kind)), layers,
                   worst.section_z, worst.place.x, worst.place.y);
-  const bool is_wide = columns(place) + columns(size) + 2 > kWidest;
+  const bool is_wide = utf8_width(place) + utf8_width(size) + 2 > kWidest;
   text += is_wide ? fmt::format("{}\n      {}\n", place, size)
                   : fmt::format("{}  {}\n", place, size);
   if (!row.source_line.empty()) {
