@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,7 @@ using namespace lamina;
 csg::Mesh read(const std::string& path) {
   csg::ImportParams params;
   params.path = path;
-  params.format =
-      csg::import_format_of(std::filesystem::path(path).extension().string());
+  params.format = csg::import_format_of_file(path);
   Diagnostics diagnostics;
   csg::Mesh all;
   csg::VertexTable table;

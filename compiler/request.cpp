@@ -22,8 +22,7 @@ bool is_imported(const std::string& path) {
 }
 
 bool has_parts(const std::string& path) {
-  return csg::has_parts(
-      csg::import_format_of(std::filesystem::path(path).extension().string()));
+  return csg::has_parts(csg::import_format_of_file(path));
 }
 
 std::string import_of(const std::string& path, const std::string& part) {

@@ -436,4 +436,8 @@ std::string FileAccess::scratch_folder() const {
   return folder == nullptr || *folder == '\0' ? "/tmp" : folder;
 }
 
+std::string words_of_open_fault(int error) {
+  return error == 0 ? "not a regular file" : std::strerror(error);
+}
+
 }  // namespace lamina

@@ -166,4 +166,7 @@ class FileAccess {
 // The default where no other is given.
 inline const FileAccess kAllFiles;
 
+// Why a file could not be opened to be read, by errno as open() leaves it.
+std::string words_of_open_fault(int error);
+
 }  // namespace lamina

@@ -1,15 +1,13 @@
 // lamina parts: what a file of several parts holds.
 
 #include <algorithm>
-#include <filesystem>
-#include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "base/diagnostic.h"
 #include "base/file/format_error.h"
@@ -46,31 +44,22 @@ struct Part {
   bool is_shown = true;
 };
 
-Vec3 size_of(const csg::Mesh& mesh) {
-  Vec3 low(std::numeric_limits<double>::infinity());
-  Vec3 high = -low;
-  for (const Vec3 vertex : mesh.vertices) {
-    low = glm::min(low, vertex);
-    high = glm::max(high, vertex);
-  }
-  return high - low;
-}
-
 // Solids have numbers, and the names of products, of which several may be one.
 std::vector<Part> read_solids(std::string_view bytes, cad::Format format) {
   Diagnostics diagnostics;
   cad::Reader reader(module_folders(), diagnostics);
   std::vector<Part> parts;
   for (cad::Body& body : reader.read(bytes, format, {}).bodies) {
+    Box3 box;
+    box.add(std::span<const Vec3>(body.mesh.vertices));
     parts.push_back({std::to_string(parts.size() + 1), std::move(body.name),
-                     size_text(size_of(body.mesh))});
+                     size_text(box.size())});
   }
   return parts;
 }
 
 std::vector<Part> read_parts(const std::string& path, std::string_view bytes) {
-  const csg::ImportFormat format =
-      csg::import_format_of(std::filesystem::path(path).extension().string());
+  const csg::ImportFormat format = csg::import_format_of_file(path);
   std::vector<Part> parts;
   if (format == csg::ImportFormat::kFcstd) {
     for (csg::FreecadPart& part : csg::freecad_parts(bytes)) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <map>
 
@@ -148,6 +147,10 @@ ImportFormat import_format_of(std::string_view extension) {
   return found == kFormats.end() ? ImportFormat::kUnknown : found->second;
 }
 
+ImportFormat import_format_of_file(const std::string& path) {
+  return import_format_of(std::filesystem::path(path).extension().string());
+}
+
 bool is_mesh(ImportFormat format) {
   switch (format) {
     case ImportFormat::kStl:
@@ -178,8 +181,7 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
   const ImportFormat format = params.format;
   const auto bytes = access.read_regular(path);
   if (!bytes) {
-    const char* const reason =
-        errno == 0 ? "not a regular file" : std::strerror(errno);
+    const std::string reason = words_of_open_fault(errno);
     Diagnostic missing{
         Severity::kWarning, range,
         warning_text(format == ImportFormat::k3mf ? "Could not read file"

@@ -117,6 +117,7 @@ std::vector<ThreemfPart> threemf_parts(std::string_view bytes);
 // The format by a file's extension, with or without its dot, in any case of
 // letters.
 ImportFormat import_format_of(std::string_view extension);
+ImportFormat import_format_of_file(const std::string& path);
 
 bool is_mesh(ImportFormat format);
 

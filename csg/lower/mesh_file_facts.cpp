@@ -1,6 +1,5 @@
 #include "csg/lower/mesh_file_facts.h"
 
-#include <filesystem>
 #include <utility>
 
 #include "csg/import/mesh_file.h"
@@ -14,8 +13,7 @@ std::vector<MeshFacts> measure_mesh_file(const std::string& path,
   ImportParams params;
   params.path = path;
   params.is_design = true;
-  params.format =
-      import_format_of(std::filesystem::path(path).extension().string());
+  params.format = import_format_of_file(path);
   Diagnostics unread;  // lowering has reported what there is to report
   std::vector<MeshFacts> facts;
   if (is_mesh(params.format)) {

@@ -186,10 +186,9 @@ void import_freecad(const std::string& path,
 // themselves.
 ImportFormat import_format(std::string_view module, const std::string& path) {
   constexpr std::string_view kPrefix = "import_";
-  return import_format_of(
-      module.starts_with(kPrefix)
-          ? std::string(module.substr(kPrefix.size()))
-          : std::filesystem::path(path).extension().string());
+  return module.starts_with(kPrefix)
+             ? import_format_of(module.substr(kPrefix.size()))
+             : import_format_of_file(path);
 }
 
 // A parameter, or its deprecated name.

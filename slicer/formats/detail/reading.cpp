@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -22,9 +21,8 @@ void fail_to_read(const std::string& path, std::string_view message) {
 }
 
 void fail_to_open(const std::string& path) {
-  throw FileError(
-      fmt::format("Can't open input file '{}': {}", path,
-                  errno == 0 ? "not a regular file" : std::strerror(errno)));
+  throw FileError(fmt::format("Can't open input file '{}': {}", path,
+                              words_of_open_fault(errno)));
 }
 
 std::string read_whole(const std::string& path, const FileAccess& access) {
