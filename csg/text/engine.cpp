@@ -6,10 +6,12 @@
 #include <cerrno>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/utf8.h"
 #include "csg/text/detail/font_cache.h"
 #include "csg/text/detail/glyph_row.h"
 #include "csg/text/detail/pen.h"
@@ -26,15 +28,18 @@ std::vector<hb_codepoint_t> codes_of(const std::vector<Letter>& letters) {
 }
 
 // "'愛' (U+611B), U+000A"
-std::string list_of(const std::vector<Letter>& letters) {
+std::string list_of(const std::vector<Letter>& letters, std::string_view text) {
   constexpr std::size_t kMost = 4;
   std::string list;
   for (std::size_t i = 0; i < std::min(letters.size(), kMost); ++i) {
     const Letter& letter = letters[i];
     const std::string code = fmt::format("U+{:04X}", letter.code);
     if (i > 0) list += ", ";
-    list +=
-        letter.code < ' ' ? code : fmt::format("'{}' ({})", letter.bytes, code);
+    const std::string_view rest = text.substr(letter.at);
+    list += letter.code < ' '
+                ? code
+                : fmt::format("'{}' ({})", rest.substr(0, utf8_length(rest[0])),
+                              code);
   }
   if (letters.size() > kMost) {
     list += fmt::format(" and {} more", letters.size() - kMost);
@@ -104,7 +109,7 @@ class FontEngine : public Engine {
 
   void draw(const csg::TextParams& params, const Font& font) {
     const GlyphRow row = shape(params, font, messages_);
-    if (!row.missing.empty()) warn_of_missing(row, font);
+    if (!row.missing.empty()) warn_of_missing(row, params.text, font);
     Vec2 place = align(params, row, messages_);
     for (const Glyph& glyph : row.glyphs) {
       auto& outline = reinterpret_cast<FT_OutlineGlyphRec_&>(*glyph.outline);
@@ -114,7 +119,8 @@ class FontEngine : public Engine {
   }
 
   // OpenSCAD says nothing of them.
-  void warn_of_missing(const GlyphRow& row, const Font& font) {
+  void warn_of_missing(const GlyphRow& row, std::string_view text,
+                       const Font& font) {
     const std::string all = fonts_.family_with(codes_of(row.letters));
     const std::string some =
         all.empty() ? fonts_.family_with(codes_of(row.missing)) : "";
@@ -123,7 +129,7 @@ class FontEngine : public Engine {
         {Severity::kWarning,
          fmt::format(
              "Font '{}' cannot draw {}, and leaves a box or a gap; {}",
-             own == nullptr ? "" : own, list_of(row.missing),
+             own == nullptr ? "" : own, list_of(row.missing, text),
              !all.empty() ? fmt::format("font \"{}\" can", all)
              : !some.empty()
                  ? fmt::format("font \"{}\" can, but not the rest", some)

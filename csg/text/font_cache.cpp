@@ -307,6 +307,10 @@ const Font& FontCache::find(const std::string& name) {
 }
 
 Owned<FcPattern> FontCache::match(FcPattern& pattern) const {
+  require(FcPatternAddBool(&pattern, FC_OUTLINE, FcTrue) &&
+          FcPatternAddBool(&pattern, FC_SCALABLE, FcTrue) &&
+          FcConfigSubstitute(config_.get(), &pattern, FcMatchPattern));
+  FcDefaultSubstitute(&pattern);
   FcResult result = FcResultNoMatch;
   FcFontSet* sets[] = {FcConfigGetFonts(config_.get(), FcSetSystem),
                        FcConfigGetFonts(config_.get(), FcSetApplication),
@@ -329,11 +333,7 @@ std::string FontCache::family_with(
   const Owned<FcPattern> pattern(FcPatternCreate());
   require(pattern != nullptr &&
           FcPatternAddCharSet(pattern.get(), FC_CHARSET, wanted.get()) &&
-          FcPatternAddBool(pattern.get(), FC_OUTLINE, FcTrue) &&
-          FcPatternAddBool(pattern.get(), FC_SCALABLE, FcTrue) &&
-          FcPatternAddBool(pattern.get(), FC_COLOR, FcFalse) &&
-          FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern));
-  FcDefaultSubstitute(pattern.get());
+          FcPatternAddBool(pattern.get(), FC_COLOR, FcFalse));
   const Owned<FcPattern> matching = match(*pattern);
   FcCharSet* has = nullptr;
   FcBool is_picture = FcFalse;
@@ -380,11 +380,7 @@ FontCache::Match FontCache::find_match(const std::string& name) const {
   require(errno != ENOMEM);
   if (!pattern) return result;
   const Owned<FcPattern> asked(FcPatternDuplicate(pattern.get()));
-  require(asked != nullptr &&
-          FcPatternAddBool(pattern.get(), FC_OUTLINE, FcTrue) &&
-          FcPatternAddBool(pattern.get(), FC_SCALABLE, FcTrue) &&
-          FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern));
-  FcDefaultSubstitute(pattern.get());
+  require(asked != nullptr);
   const Owned<FcPattern> matching = match(*pattern);
   FcChar8* file = nullptr;
   if (!matching ||

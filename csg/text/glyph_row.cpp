@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "base/utf8.h"
-
 namespace lamina::text {
 namespace {
 
@@ -45,14 +43,13 @@ std::string to_c(std::string_view text) {
 }
 
 // The letters of a text as they stand in a buffer that is not yet shaped.
-std::vector<Letter> letters_of(hb_buffer_t* buffer, std::string_view text) {
+std::vector<Letter> letters_of(hb_buffer_t* buffer) {
   unsigned count = 0;
   const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer, &count);
   std::vector<Letter> letters;
+  letters.reserve(count);
   for (unsigned i = 0; i < count; ++i) {
-    const std::uint32_t at = infos[i].cluster;
-    letters.push_back({infos[i].codepoint, at,
-                       std::string(text.substr(at, utf8_length(text[at])))});
+    letters.push_back({infos[i].codepoint, infos[i].cluster});
   }
   return letters;
 }
@@ -70,7 +67,7 @@ Owned<hb_buffer_t> shape_text(const csg::TextParams& params, const Font& font,
   hb_buffer_set_language(
       buffer, hb_language_from_string(to_c(params.language).c_str(), -1));
   hb_buffer_add_utf8(buffer, text.c_str(), -1, 0, -1);
-  letters = letters_of(buffer, text);
+  letters = letters_of(buffer);
   if (font.face->is_symbol) move_to_symbol_page(buffer, text, messages);
   if (!hb_shape_full(font.face->shaper.get(), buffer, font.features.data(),
                      static_cast<unsigned>(font.features.size()), nullptr) ||

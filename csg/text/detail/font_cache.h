@@ -97,6 +97,7 @@ class FontCache {
   Match shared_match(const std::string& name) const;
   void add_permitted_folders();
   void add_pattern(FT_FaceRec& face, const char* path, unsigned index);
+  // The best font of outlines; adds to the pattern what Fontconfig's rules say.
   Owned<FcPattern> match(FcPattern& pattern) const;
   Owned<FT_FaceRec> open_face(const std::string& bytes, long index) const;
 

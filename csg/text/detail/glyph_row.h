@@ -3,7 +3,6 @@
 // row stands, and how large it is.
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "base/vec.h"
@@ -24,7 +23,6 @@ using OwnedGlyph = Owned<FT_GlyphRec_>;
 struct Letter {
   hb_codepoint_t code = 0;
   std::uint32_t at = 0;  // in the bytes of the text
-  std::string bytes;
 };
 
 // Lengths are in units of text(size = 1).
