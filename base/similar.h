@@ -10,8 +10,7 @@ namespace lamina {
 
 // Empty where none is near: within one letter in three that is wrong, missing,
 // too much, or swapped with its neighbour; of a single letter none may. Letter
-// case does not count. Of
-// equally near ones the first.
+// case does not count. Of equally near ones the first.
 std::string_view most_similar(std::string_view name,
                               std::span<const std::string_view> candidates);
 

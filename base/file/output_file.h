@@ -14,8 +14,8 @@
 #include <string_view>
 #include <utility>
 
-#include "base/file/file_access.h"
 #include "base/diagnostic.h"
+#include "base/file/file_access.h"
 #include "base/file/temporary_files.h"
 
 namespace lamina {

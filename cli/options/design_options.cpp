@@ -59,7 +59,6 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   });
   options.number("--chordal-error", "length", request.geometry.chordal_error);
   options.number("--decimate", "length", request.geometry.decimation);
-  // Two names of one thing: what simplification is for, and what it promises.
   options.number("--tolerance", "length", settings.tolerance);
   options.number("--compensate", "length", settings.compensation);
   options.text("--scale", "factor", [&](const std::string& text) {

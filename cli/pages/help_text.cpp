@@ -33,8 +33,7 @@ Word word_at(const std::string& line, std::size_t at) {
 }
 
 // Names and their values behind them, as in "-p FILE -P SET" and "-q, --quiet".
-// Two blanks end them, or a word behind a
-// value, where the value is long.
+// Two blanks end them, or a word behind a value, where the value is long.
 std::size_t read_head(const std::string& line, HelpEntry& entry) {
   std::size_t end = 0;
   bool is_value_next = false;

@@ -10,8 +10,8 @@
 
 namespace lamina::cli {
 
-// "2 islands, 1 resin trap", "no problems found"; what is too small to matter is
-// counted apart.
+// "2 islands, 1 resin trap", "no problems found"; what is too small to matter
+// is counted apart.
 std::string finding_counts(const slicer::PrintCheck& print);
 
 // The counts, a line for each finding that matters, and the peel. Each line

@@ -220,7 +220,7 @@ std::string report_text(const compiler::Compilation& compilation,
        {"peak_memory_bytes", peak_memory_bytes()}}));
 }
 
-// "print: 2 islands; see lamina check ring.scad"
+// "print: 2 islands; for where, run:\n  lamina check ring.scad"
 std::string print_line(const compiler::Report& report,
                        const std::function<std::string()>& check) {
   const auto& print = report.slice.print;

@@ -15,6 +15,7 @@ const kSlopeReach = 20;       // such lengths: tops that are level so far are le
 const kSmoothCosine = .8;     // of the angle between edges that make a curve
 const kPieces = 40;           // across the part: longer edges are divided
 const kNarrowest = 1e-5;      // of the part's size: what is narrower is not seen
+const kQuad = [0, 1, 2, 0, 2, 3];  // corners of its two triangles
 const kPatience = 8;          // of the page, while the solid is made [ms]
 
 // How deep places lie in a layer, as far as `reach`; less than 0 outside. A grid
@@ -617,7 +618,7 @@ class Solid {
   fillQuads(gl, corners, quads) {
     this.fill(gl, corners, quads.values.subarray(0, quads.end));
     const indices = new Uint32Array(6 * quads.count);
-    for (let i = 0; i < indices.length; ++i) indices[i] = 4 * Math.floor(i / 6) + [0, 1, 2, 0, 2, 3][i % 6];
+    for (let i = 0; i < indices.length; ++i) indices[i] = 4 * Math.floor(i / 6) + kQuad[i % 6];
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
   }
 

@@ -1,6 +1,8 @@
 // Meshes and drawings in the place of a design.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -91,30 +93,23 @@ TEST(Imported, AMissingMeshEndsWithOne) {
 TEST(Imported, SlicesOf3mfAreNoMesh) {
   const TemporaryFolder folder;
   folder.write("a.scad", "sphere(3);");
-  const auto refused = run(folder, {"a.scad", "-o", "a.3mf"});
-  EXPECT_EQ(refused.status, 1);
-  EXPECT_TRUE(has(refused.errors,
-                  "it writes no .3mf; the nearest output is .slices.3mf, which "
-                  "programs that know no slices open as a box"))
-      << refused.errors;
-  const auto written = run(folder, {"a.scad", "-o", "a.slices.3mf"});
-  EXPECT_EQ(written.status, 0);
-  EXPECT_TRUE(has(written.errors,
-                  "programs that know no slices open this 3MF as a box"))
-      << written.errors;
-  const auto sliced = run(folder, {"a.slices.3mf"});
-  EXPECT_EQ(sliced.status, 2);
-  EXPECT_TRUE(has(sliced.errors, "'a.slices.3mf' holds layers already; try"))
-      << sliced.errors;
+  const auto expect = [&](const std::vector<std::string>& words, int status,
+                          const std::string& told) {
+    const auto result = run(folder, words);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_TRUE(has(result.errors, told)) << result.errors;
+  };
+  expect({"a.scad", "-o", "a.3mf"}, 1,
+         "it writes no .3mf; the nearest output is .slices.3mf, which "
+         "programs that know no slices open as a box");
+  expect({"a.scad", "-o", "a.slices.3mf"}, 0,
+         "programs that know no slices open this 3MF as a box");
+  expect({"a.slices.3mf"}, 2, "'a.slices.3mf' holds layers already; try");
   std::filesystem::rename(folder.file("a.slices.3mf"), folder.file("b.3mf"));
-  const auto box = run(folder, {"b.3mf"});
-  EXPECT_EQ(box.status, 1);
-  EXPECT_TRUE(has(box.errors, "holds layers already, and its mesh is only"))
-      << box.errors;
+  expect({"b.3mf"}, 1, "holds layers already, and its mesh is only");
   EXPECT_FALSE(std::filesystem::exists(folder.file("b.slc")));
   folder.write("c.scad", "import(\"b.3mf\");");
-  EXPECT_TRUE(
-      has(run(folder, {"c.scad"}).errors, "its mesh is only a placeholder"));
+  expect({"c.scad"}, 0, "its mesh is only a placeholder");
 }
 
 TEST(Imported, PicturesAreRefused) {
