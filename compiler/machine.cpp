@@ -10,7 +10,14 @@ using slicer::OutputFormat;
 std::string usual_printer(OutputFormat format) {
   if (!slicer::is_of_images(format)) return {};
   if (format == OutputFormat::kSl1) return "prusa-sl1";
+  if (format == OutputFormat::kGoo) return "elegoo-mars-4";
+  if (format == OutputFormat::kCtb) return "elegoo-saturn";
   return format == OutputFormat::kNanoDlp ? "wanhao-d7" : "plain";
+}
+
+// Formats that printers of one kind read, and no programs that convert.
+bool is_for_printers(OutputFormat format) {
+  return format == OutputFormat::kGoo || format == OutputFormat::kCtb;
 }
 
 }  // namespace
@@ -22,6 +29,11 @@ Machine choose_machine(const OutputRequest& request, const FileAccess& access) {
   if (!name.empty()) {
     slicer::Printer& printer =
         machine.printer.emplace(slicer::find_printer(name, access));
+    const std::string complaint =
+        slicer::complaint_of_printer(printer.title, printer.reads);
+    if (!complaint.empty() && is_for_printers(request.format)) {
+      throw FileError(complaint);
+    }
     if (request.mirrors_x) printer.right = -printer.right;
     if (request.mirrors_y) printer.up = -printer.up;
   }

@@ -132,13 +132,13 @@ void refuse_misfits(const Request& request) {
   refuse_if(!has_layers && !output.material.empty(), "--material needs layers");
   refuse_if(
       !slicer::is_of_images(format) && (output.mirrors_x || output.mirrors_y),
-      "--mirror needs images: .png, .sl1 or .zip");
+      "--mirror needs images: .png, .sl1, .zip, .goo or .ctb");
   refuse_if(output.cli_encoding && format != kCli, "--cli needs .cli output");
   const bool has_heights = !job.heights.empty();
   refuse_if(
-      (format == kSl1 || format == kNanoDlp) && (job.cusp > 0 || has_heights),
-      ".sl1 and .zip need layers of one thickness, not --heights or "
-      "--adaptive");
+      slicer::needs_one_thickness(format) && (job.cusp > 0 || has_heights),
+      ".sl1, .zip, .goo and .ctb need layers of one thickness, not "
+      "--heights or --adaptive");
   refuse_if(format == kThreemf && has_heights,
             ".slices.3mf needs layers, not --heights");
 }

@@ -80,9 +80,27 @@ void warn_of_heights(const csg::Lowered& lowered, const Request& request,
                       box.high.z));
 }
 
+// A printer that reads one of these formats may not read the other.
+void warn_of_panel_file(const slicer::Printer& printer, OutputFormat format,
+                        Diagnostics& diagnostics) {
+  const bool reads_it =
+      std::ranges::any_of(printer.reads, [&](const std::string& extension) {
+        return slicer::choose_output_format(extension).format == format;
+      });
+  if (printer.reads.empty() || reads_it) return;
+  diagnostics.own_warning(
+      {}, fmt::format("{} reads .{} files; whether it reads this format is "
+                      "not known",
+                      printer.title, printer.reads.front()));
+}
+
 // Prusa's printers alone read the archive as it is.
 void warn_of_archive(const Machine& machine, const Request& request,
                      Diagnostics& diagnostics) {
+  if (request.output.format == OutputFormat::kGoo ||
+      request.output.format == OutputFormat::kCtb) {
+    warn_of_panel_file(*machine.printer, request.output.format, diagnostics);
+  }
   if (request.output.format != OutputFormat::kSl1) return;
   if (machine.printer->name.starts_with("prusa-sl1")) return;
   diagnostics.own_warning(

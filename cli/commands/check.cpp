@@ -29,8 +29,8 @@ constexpr std::string_view kCheckHelp =
     R"(Usage: lamina check FILE... [OPTION]...
 
 Says whether a design would print, or a file of layers (.slc, .cli, .svg,
-.slices.3mf, .sl1, .zip, .layers.json, a folder of images), and what would go
-wrong. It takes the options of slicing and writes no file:
+.slices.3mf, .sl1, .goo, .ctb, .zip, .layers.json, a folder of images), and what
+would go wrong. It takes the options of slicing and writes no file:
 
   loose parts    are connected to nothing that reaches the bed
   islands        begin in mid-air: nothing in the layer below holds them

@@ -29,11 +29,11 @@ constexpr std::string_view kCompareHelp =
     R"(Usage: lamina compare A B [OPTION]...
        lamina compare DESIGN --against openscad [OPTION]...
 
-Compares the layers of files (.slc .cli .svg .3mf .sl1 .zip .layers.json, a
-folder of images), designs (.scad .csg), meshes (.stl .off .obj .ply .amf
-.3mf), drawings (.dxf) and CAD files (.step .stp .iges .igs .brep .brp .fcstd),
-in any pairing. All but files of layers are cut at the heights of the other one; two
-designs at those of the first. Shows for each layer the areas that only one of
+Compares the layers of files (.slc .cli .svg .3mf .sl1 .goo .ctb .zip
+.layers.json, a folder of images), designs (.scad .csg), meshes (.stl .off .obj
+.ply .amf .3mf), drawings (.dxf) and CAD files (.step .stp .iges .igs .brep .brp
+.fcstd), in any pairing. All but files of layers are cut at the heights of the
+other one; two designs at those of the first. Shows for each layer the areas that only one of
 them covers, regions and holes, and the greatest distance of their contours: no
 point of one is farther from the other's. Ends with 0 if all layers are within
 the tolerance, with 1 if not.
@@ -109,7 +109,8 @@ class CompareCommand : public Command {
       refuse_if(
           !path.empty() && !compiler::can_compare(path),
           "'{}' is no file that compare reads (.slc .cli .svg "
-          ".sl1 .zip .layers.json .scad .csg .stl .off .obj .ply .amf .3mf "
+          ".sl1 .goo .ctb .zip .layers.json .scad .csg .stl .off .obj .ply "
+          ".amf .3mf "
           ".dxf .step .stp .iges .igs .brep .brp .fcstd)",
           path);
     }

@@ -19,8 +19,8 @@ constexpr std::string_view kPrintersHelp =
 
 Lists the resin printers that lamina knows: the names for --printer, what they
 build, the pixels of their panels, the seconds that a layer takes besides its
-exposure, and the source of these figures. --printer takes a profile of your own
-as well (see docs/formats.md).
+exposure, the format that they read, and the source of these figures. --printer
+takes a profile of your own as well (see docs/formats.md).
 
   -h, --help  print this help
 )";
@@ -45,13 +45,13 @@ class PrintersCommand : public Command {
   std::string_view help() const override { return kPrintersHelp; }
   void add_options(OptionList& /*options*/) override {}
   int run(const Context& /*context*/) override {
-    std::string text =
-        fmt::format("{:<26} {:>26} {:>13} {:>15} {:>7}  {}\n", "printer",
-                    "builds mm", "pixels", "of mm", "move s", "source");
+    std::string text = fmt::format(
+        "{:<26} {:>26} {:>13} {:>15} {:>7}  {:<13} {}\n", "printer",
+        "builds mm", "pixels", "of mm", "move s", "reads", "source");
     for (const slicer::Printer& printer : slicer::known_printers()) {
       const Vec3 volume = printer.build_volume();
       text += fmt::format(
-          "{:<26} {:>26} {:>13} {:>15} {:>7}  {}\n", printer.name,
+          "{:<26} {:>26} {:>13} {:>15} {:>7}  {:<13} {}\n", printer.name,
           fmt::format("{:.5g} x {:.5g} x {}", volume.x, volume.y,
                       known(volume.z, fmt::format("{:g}", volume.z))),
           fmt::format("{} x {}", printer.width, printer.height),
@@ -60,6 +60,7 @@ class PrintersCommand : public Command {
               : fmt::format("{:g} x {:g}", printer.pixel.x, printer.pixel.y),
           known(printer.move_seconds,
                 fmt::format("{:g}", printer.move_seconds)),
+          printer.reads.empty() ? "-" : "." + printer.reads.front(),
           printer.source);
     }
     print_out(text);

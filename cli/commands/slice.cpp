@@ -24,6 +24,7 @@
 #include "compiler/request.h"
 #include "slicer/dump/layer_dump.h"
 #include "slicer/formats/output_format.h"
+#include "slicer/machine/printer.h"
 
 namespace lamina::cli {
 namespace {
@@ -45,14 +46,19 @@ Usage:
 
 Output:
   -o FILE             the output, by its extension ('-' for standard output);
-                      ring.slc beside ring.scad if not given; for several
-                      designs a folder (out/) or a pattern (out/{name}.slc)
+                      ring.slc beside ring.scad if not given, or what the
+                      --printer reads (also for a name without extension); for
+                      several designs a folder (out/) or a pattern
+                      (out/{name}.slc)
                         .slc             layers for wax and resin printers
                         .cli             Common Layer Interface
                         .svg             a group of polygons per layer, or the
                                          outline of a 2D design
                         .png             a folder of images
                         .sl1             images for Prusa's resin printers
+                        .goo             images for resin printers of Elegoo
+                        .ctb             images for printers with ChiTuBox's
+                                         firmware, version 2 to 4
                         .zip .nanodlp    images for printers with NanoDLP
                         .slices.3mf      a stack of slices
                         .layers.json     layers as JSON, in full precision
@@ -309,8 +315,23 @@ class SliceCommand : public Command {
             }};
   }
 
+  // What the printer reads, where neither name nor option says it.
   std::string extension() const {
-    return output_.export_format.empty() ? "slc" : output_.export_format;
+    if (!output_.export_format.empty()) return output_.export_format;
+    for (const slicer::Printer& printer : slicer::known_printers()) {
+      if (printer.name == request_.output.printer) {
+        return slicer::usual_extension(printer.title, printer.reads);
+      }
+    }
+    return "slc";
+  }
+
+  // The path with an extension of what the printer reads, where it has none.
+  std::string with_extension(const std::string& path) const {
+    const bool says_format = path == "-" || request_.output.printer.empty() ||
+                             !output_.export_format.empty() ||
+                             std::filesystem::path(path).has_extension();
+    return says_format ? path : fmt::format("{}.{}", path, extension());
   }
 
   // A name such as "ring.png/" is that of an output that is a folder.
@@ -333,10 +354,11 @@ class SliceCommand : public Command {
       return fmt::format("{}{}.{}", request_.output.path, stem(design),
                          extension());
     }
-    if (!is_pattern()) return request_.output.path;
-    return fill_pattern(request_.output.path, [&](const std::string& word) {
-      return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
-    });
+    if (!is_pattern()) return with_extension(request_.output.path);
+    return fill_pattern(
+        with_extension(request_.output.path), [&](const std::string& word) {
+          return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
+        });
   }
 
   // A dump goes to standard output where no file is named.

@@ -116,10 +116,11 @@ constexpr std::string_view kViewHelp =
     R"(Usage: lamina view FILE -o PICTURE.png [OPTION]...
        lamina view FILE -o PAGE.html [OPTION]...
 
-Draws the layers of a file (.slc, .cli, .svg, .3mf, .sl1, .zip, .layers.json, a
-folder of images), or of a .scad or .csg design with any option of Design, Slicing and Limits (see 'lamina --help').
-A page shows all layers and the solid in any browser, to leaf through, turn, zoom
-and measure, and lists what 'lamina check' finds; it is one file and needs no
+Draws the layers of a file (.slc, .cli, .svg, .3mf, .sl1, .goo,
+.ctb, .zip, .layers.json, a folder of images), or of a .scad or .csg design with
+any option of Design, Slicing and Limits (see 'lamina --help').
+A page shows all layers and the solid in any browser, to leaf through, turn,
+zoom and measure, and lists what 'lamina check' finds; it is one file and needs no
 network.
 
   -o FILE           the picture or the page

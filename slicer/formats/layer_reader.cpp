@@ -32,7 +32,7 @@ struct Format {
   std::string_view ending;
   ReadLayers* read;
 };
-constexpr std::array<Format, 9> kFormats = {{
+constexpr std::array<Format, 11> kFormats = {{
     {".slc", read_slc},
     {".cli", read_cli},
     {".svg", read_svg},
@@ -41,6 +41,8 @@ constexpr std::array<Format, 9> kFormats = {{
     {".sl1", read_image_archive},
     {".zip", read_image_archive},
     {".nanodlp", read_image_archive},
+    {".goo", read_goo},
+    {".ctb", read_ctb},
     {".png", read_image_folder},
 }};
 
@@ -78,8 +80,7 @@ void require_layers(const std::string& path, std::size_t count) {
   if (count == 0) fail_to_read(path, "it holds no layers");
 }
 
-bool is_readable_layer_file(const std::string& path,
-                            const FileAccess& access) {
+bool is_readable_layer_file(const std::string& path, const FileAccess& access) {
   ReadLayers* const read = reader_for(path);
   if (read == read_3mf) return has_slices(path, access);
   if (read == read_image_folder) return is_image_folder(path, access);
@@ -90,9 +91,10 @@ LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
                            const FileAccess& access) {
   ReadLayers* const read = reader_for(path);
   if (read == nullptr) {
-    fail_to_read(path,
-                 "layers are read from .slc, .cli, .svg, .3mf, .sl1, .zip, "
-                 ".nanodlp, .layers.json and folders of images only");
+    fail_to_read(
+        path,
+        "layers are read from .slc, .cli, .svg, .3mf, .sl1, .zip, "
+        ".nanodlp, .goo, .ctb, .layers.json and folders of images only");
   }
   std::size_t count = 0;
   LayerFileFacts facts = read(

@@ -21,7 +21,8 @@ namespace lamina::slicer {
 using TakeLayer = std::function<void(Layer&)>;
 
 // Whether the file can be read: by its name .slc .cli .svg .sl1 .zip .nanodlp
-// .layers.json, in any letter case, a .3mf that holds slices, or a folder .png.
+// .goo .ctb .layers.json, in any letter case, a .3mf that holds slices, or a
+// folder .png.
 bool is_readable_layer_file(const std::string& path,
                             const FileAccess& access = kAllFiles);
 

@@ -16,6 +16,10 @@ MakeLayerWriter* writer_for(OutputFormat format) {
       return make_svg_writer;
     case OutputFormat::kThreemf:
       return make_threemf_writer;
+    case OutputFormat::kGoo:
+      return make_goo_writer;
+    case OutputFormat::kCtb:
+      return make_ctb_writer;
     case OutputFormat::kPng:
     case OutputFormat::kSl1:
     case OutputFormat::kNanoDlp:

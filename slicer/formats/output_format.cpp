@@ -1,11 +1,13 @@
 #include "slicer/formats/output_format.h"
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "base/diagnostic.h"
 #include "base/letter_case.h"
 
 namespace lamina::slicer {
@@ -15,7 +17,7 @@ struct Written {
   std::string_view extension;
   OutputFormat format;
 };
-constexpr std::array<Written, 13> kWritten = {{
+constexpr std::array<Written, 15> kWritten = {{
     {"slc", OutputFormat::kSlc},
     {"cli", OutputFormat::kCli},
     {"svg", OutputFormat::kSvg},
@@ -23,6 +25,8 @@ constexpr std::array<Written, 13> kWritten = {{
     {"sl1", OutputFormat::kSl1},
     {"zip", OutputFormat::kNanoDlp},
     {"nanodlp", OutputFormat::kNanoDlp},
+    {"goo", OutputFormat::kGoo},
+    {"ctb", OutputFormat::kCtb},
     {"slices.3mf", OutputFormat::kThreemf},
     {"layers.json", OutputFormat::kLayersJson},
     {"ast", OutputFormat::kAst},
@@ -45,6 +49,23 @@ constexpr std::array<Refused, 5> kRefused = {{
     {"3mf", ".slices.3mf, which programs that know no slices open as a box"},
 }};
 
+// Formats of resin printers that UVtools converts archives to.
+constexpr std::array<std::string_view, 28> kConverted = {
+    "encrypted.ctb", "gktwo.ctb", "cbddlp", "photon", "photons", "pws",
+    "pw0",           "pwx",       "pwmo",   "pwmx",   "pwms",    "pwma",
+    "pwmb",          "pmx2",      "pmsq",   "pm3",    "pm3m",    "pm3n",
+    "pm4n",          "pm5",       "pm5s",   "pm7",    "pwsz",    "cxdlp",
+    "cxdlpv4",       "fdg",       "prz",    "xml.cws"};
+
+constexpr std::string_view kConversion =
+    "write an .sl1 file with --printer and convert it with UVtools "
+    "('UVtoolsCmd convert')";
+
+bool is_written(std::string_view extension) {
+  return std::ranges::find(kWritten, extension, &Written::extension) !=
+         kWritten.end();
+}
+
 bool has_extension(std::string_view name, std::string_view extension) {
   return name == extension ||
          (name.size() > extension.size() && name.ends_with(extension) &&
@@ -61,7 +82,33 @@ bool is_of_layers(OutputFormat format) {
 
 bool is_of_images(OutputFormat format) {
   using enum OutputFormat;
-  return format == kPng || format == kSl1 || format == kNanoDlp;
+  return format == kPng || format == kSl1 || format == kNanoDlp ||
+         format == kGoo || format == kCtb;
+}
+
+bool needs_one_thickness(OutputFormat format) {
+  return is_of_images(format) && format != OutputFormat::kPng;
+}
+
+std::string complaint_of_printer(const std::string& printer,
+                                 const std::vector<std::string>& reads) {
+  if (reads.empty() || std::ranges::any_of(reads, is_written)) return {};
+  if (reads.front() == "encrypted.ctb") {
+    return fmt::format(
+        "{} reads encrypted .ctb files only, which lamina does not write: {}",
+        printer, kConversion);
+  }
+  return fmt::format("{} reads .{} files, which lamina does not write: {}",
+                     printer, reads.front(), kConversion);
+}
+
+std::string usual_extension(const std::string& printer,
+                            const std::vector<std::string>& reads) {
+  for (const std::string& extension : reads) {
+    if (is_written(extension)) return extension;
+  }
+  if (!reads.empty()) throw FileError(complaint_of_printer(printer, reads));
+  return "slc";
 }
 
 std::size_t most_thickness_runs(OutputFormat format) {
@@ -71,6 +118,19 @@ std::size_t most_thickness_runs(OutputFormat format) {
 
 FormatChoice choose_output_format(std::string_view name) {
   const std::string lower = lower_case(name);
+  for (const std::string_view extension : kConverted) {
+    if (has_extension(lower, extension)) {
+      return {{},
+              fmt::format("lamina writes no .{}: {}", extension, kConversion),
+              true};
+    }
+  }
+  if (has_extension(lower, "gcode")) {
+    return {{},
+            "lamina writes no .gcode: it slices for resin and wax printers, "
+            "not for filament",
+            true};
+  }
   for (const Written& written : kWritten) {
     if (has_extension(lower, written.extension)) {
       return {written.format, "", true};
@@ -87,9 +147,8 @@ FormatChoice choose_output_format(std::string_view name) {
   }
   return {{},
           fmt::format("'{}' has no extension that lamina knows (.slc .cli "
-                      ".svg .png .sl1 .zip .nanodlp .slices.3mf .layers.json "
-                      ".csg .echo .ast "
-                      ".param)",
+                      ".svg .png .sl1 .zip .nanodlp .goo .ctb .slices.3mf "
+                      ".layers.json .csg .echo .ast .param)",
                       name),
           false};
 }

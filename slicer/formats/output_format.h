@@ -16,6 +16,8 @@ enum class OutputFormat {
   kPng,  // a folder of images
   kSl1,
   kNanoDlp,
+  kGoo,
+  kCtb,
   kThreemf,
   kLayersJson,
   kAst,    // the parser's product
@@ -48,6 +50,23 @@ struct FormatChoice {
 // name  a path ("out/ring.slc") or a bare extension ("slc"); letter case does
 //       not matter
 FormatChoice choose_output_format(std::string_view name);
+
+// Whether layers must have one thickness, which the file says once.
+bool needs_one_thickness(OutputFormat format);
+
+// The extension of what a printer of these formats gets where nothing else is
+// asked for: that of the first one that lamina writes, "slc" where none is
+// known. Throws FileError where lamina writes none of them.
+//
+// printer  its title, for the message
+// reads    Printer::reads
+std::string usual_extension(const std::string& printer,
+                            const std::vector<std::string>& reads);
+
+// What to do instead for a printer that reads none of the formats that lamina
+// writes; empty for all others.
+std::string complaint_of_printer(const std::string& printer,
+                                 const std::vector<std::string>& reads);
 
 // The extensions that ask for a format, "slc" to "csg".
 std::vector<std::string> written_extensions();

@@ -19,8 +19,7 @@ std::string duration_text(double seconds) {
 
 double Exposure::of(std::size_t index) const {
   if (index < kFirstLayers) return first;
-  const double step =
-      (first - layer) / static_cast<double>(kFadeLayers + 1);
+  const double step = (first - layer) / static_cast<double>(kFadeLayers + 1);
   const double faded =
       first - step * static_cast<double>(index - kFirstLayers + 1);
   return index < kFirstLayers + kFadeLayers ? faded : layer;
@@ -51,8 +50,7 @@ PrintEstimate estimate_print(const std::optional<Printer>& printer,
     estimate.price = material->price * volume / 1e6;
   }
   if (printer) {
-    estimate.seconds =
-        print_seconds(*printer, exposure_of(material), layers);
+    estimate.seconds = print_seconds(*printer, exposure_of(material), layers);
   }
   return estimate;
 }
@@ -76,8 +74,13 @@ std::string estimate_text(const std::optional<Printer>& printer,
     add(fmt::format("{:.2f} {}", estimate.price, material->currency));
   }
   if (estimate.seconds > 0) {
-    add(fmt::format("{} on {}", duration_text(estimate.seconds),
-                    printer->title));
+    const bool is_known = is_resin && (material->printer.empty() ||
+                                       material->printer == printer->name);
+    add(fmt::format("{} on {}{}", duration_text(estimate.seconds),
+                    printer->title,
+                    is_known ? ""
+                             : fmt::format(" if a layer is exposed for {:g} s",
+                                           exposure_of(material).layer)));
   }
   return text;
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "slicer/machine/detail/profile.h"
 
 namespace lamina::slicer {
@@ -19,6 +20,7 @@ constexpr unsigned kMostPixels = 65536;  // along a side
 constexpr double kGreatestHeight = 10'000;
 constexpr double kGreatestPixel = 10;
 constexpr double kLongestMove = 1000;
+constexpr double kGreatestSpeed = 100'000;  // [mm/min]
 
 // Printers that a message names, at most.
 constexpr std::size_t kMostNamed = 3;
@@ -46,6 +48,35 @@ PixelLayout read_layout(const json& word_of, unsigned width) {
   return PixelLayout::kThreeInOne;
 }
 
+// A number for the first layers and one for the others.
+void read_pair(const json& object, const char* member, double greatest,
+               double& first, double& other) {
+  if (!object.contains(member)) return;
+  const json& pair = object.at(member);
+  first = pair.at(0).get<double>();
+  other = pair.at(1).get<double>();
+  for (const double value : {first, other}) {
+    if (!(value >= 0 && value <= greatest)) {
+      throw std::runtime_error(
+          fmt::format("{} must be from 0 to {}", member, greatest));
+    }
+  }
+}
+
+void read_moves(const json& object, Printer& printer) {
+  PlatformMoves& first = printer.first_moves;
+  PlatformMoves& other = printer.moves;
+  read_pair(object, "lift_mm", kGreatestHeight, first.lift, other.lift);
+  read_pair(object, "lift_mm_per_min", kGreatestSpeed, first.lift_speed,
+            other.lift_speed);
+  read_pair(object, "wait_before_lift_s", kLongestMove, first.wait_before_lift,
+            other.wait_before_lift);
+  read_pair(object, "wait_after_retract_s", kLongestMove,
+            first.wait_after_retract, other.wait_after_retract);
+  first.retract_speed = other.retract_speed = detail::read_number(
+      object, "retract_mm_per_min", 0, kGreatestSpeed, other.retract_speed);
+}
+
 unsigned read_pixels(const json& number) {
   const double pixels = number.get<double>();
   if (!(pixels >= 1 && pixels <= kMostPixels) || pixels != std::floor(pixels)) {
@@ -57,8 +88,11 @@ unsigned read_pixels(const json& number) {
 
 Printer read_printer(const json& object) {
   detail::require_members(
-      object, {"name", "title", "source", "pixels", "pixel_mm", "right", "up",
-               "height_mm", "move_s", "nanodlp_pixels"});
+      object,
+      {"name", "title", "source", "pixels", "pixel_mm", "right", "up",
+       "height_mm", "move_s", "lift_mm", "lift_mm_per_min",
+       "retract_mm_per_min", "wait_before_lift_s", "wait_after_retract_s",
+       "nanodlp_pixels", "reads", "ctb_version"});
   Printer printer;
   printer.name = detail::read_line(object, "name");
   printer.title = detail::read_line(object, "title", printer.name);
@@ -73,6 +107,14 @@ Printer read_printer(const json& object) {
       detail::read_number(object, "height_mm", 0.001, kGreatestHeight, 0);
   printer.move_seconds =
       detail::read_number(object, "move_s", 0, kLongestMove, 0);
+  read_moves(object, printer);
+  if (object.contains("reads")) {
+    for (const json& extension : object.at("reads")) {
+      printer.reads.push_back(on_one_line(extension.get<std::string>()));
+    }
+  }
+  printer.ctb_version = static_cast<unsigned>(
+      detail::read_number(object, "ctb_version", 2, 4, 3));
   if (object.contains("nanodlp_pixels")) {
     printer.nanodlp_layout =
         read_layout(object.at("nanodlp_pixels"), printer.width);

@@ -19,6 +19,15 @@ enum class PixelLayout {
   kThreeInOne,
 };
 
+// How the platform leaves the film behind a layer and comes back.
+struct PlatformMoves {
+  double lift = 5;                // [mm]
+  double lift_speed = 60;         // [mm/min]
+  double retract_speed = 150;     // [mm/min]
+  double wait_before_lift = 0;    // after the exposure [s]
+  double wait_after_retract = 0;  // before the exposure [s]
+};
+
 struct Printer {
   std::string name;
   std::string title;   // as its manufacturer writes it
@@ -34,6 +43,15 @@ struct Printer {
   // What it takes to lift the part from the film and to come back, for each
   // layer [s]; 0: not known.
   double move_seconds = 0;
+  // Behind the first layers, and behind the others.
+  PlatformMoves first_moves;
+  PlatformMoves moves;
+
+  // The formats that it reads, by their extensions without the dot, best first;
+  // "encrypted.ctb" and others that lamina does not write are among them.
+  // Empty: not known.
+  std::vector<std::string> reads;
+  unsigned ctb_version = 3;  // of the .ctb that it reads: 2, 3 or 4
 
   // How NanoDLP hands pixels to its display.
   PixelLayout nanodlp_layout = PixelLayout::kGrey;

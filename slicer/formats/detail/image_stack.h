@@ -36,6 +36,12 @@ struct ImageStack {
   std::vector<ImageLayer> layers;
 };
 
+// How the platform moves behind a layer, counted from 0.
+inline const PlatformMoves& moves_of(const Printer& printer,
+                                     std::size_t layer) {
+  return layer < kFirstLayers ? printer.first_moves : printer.moves;
+}
+
 // Name of the text that lists what a folder holds.
 inline constexpr const char* kFolderContents = "index.json";
 

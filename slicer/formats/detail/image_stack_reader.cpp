@@ -22,22 +22,14 @@
 #include "base/file/png_image.h"
 #include "base/file/zip.h"
 #include "base/text.h"
-#include "slicer/contour/simplify.h"
 #include "slicer/formats/detail/image_stack.h"
-#include "slicer/formats/detail/pixel_contours.h"
+#include "slicer/formats/detail/panel/panel_contours.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {
 namespace {
 
 using Json = nlohmann::json;
-
-// Panels have some 10⁸ pixels.
-constexpr std::size_t kMostPixels = 1'000'000'000;
-
-// Contours are simplified within this distance [pixels]: they are not more
-// accurate themselves.
-constexpr double kTolerance = 0.05;
 
 constexpr std::string_view kImageEnding = ".png";
 constexpr std::string_view kDigits = "0123456789";
@@ -74,25 +66,16 @@ class ImageStackReader {
 
   LayerFileFacts read(const TakeLayer& take) {
     const StackFacts stack = read_facts();
-    Simplifier simplifier(
-        kTolerance * std::min(stack.printer.pixel.x, stack.printer.pixel.y));
     for (const ImageFile& image : stack.images) {
       Layer layer;
       layer.bottom = image.bottom;
       layer.top = image.top;
       layer.section_z = image.section_z;
       layer.contours = contours_of(image.name, stack.printer);
-      simplifier.simplify(layer.contours);
       take(layer);
     }
-    LayerFileFacts facts;
-    facts.format = fmt::format(
-        "{}, {} images of {} x {} pixels of {:g} x {:g} mm", stack.format,
-        stack.images.size(), stack.printer.width, stack.printer.height,
-        stack.printer.pixel.x, stack.printer.pixel.y);
-    facts.writer = stack.writer;
-    facts.is_float32 = false;
-    return facts;
+    return panel_file_facts(stack.format, stack.images.size(), stack.printer,
+                            stack.writer);
   }
 
  private:
@@ -322,7 +305,6 @@ class ImageStackReader {
     fail_to_read(path_, "the size of a pixel must be positive");
   }
 
-  // In the design's directions [mm].
   plane::Contours contours_of(const std::string& name,
                               const Printer& printer) const {
     const std::string bytes = require_text(name);
@@ -345,21 +327,7 @@ class ImageStackReader {
                                       name, columns, image.rows, printer.width,
                                       printer.height));
     }
-    plane::Contours contours = trace_pixels(image.pixels, columns, image.rows);
-    const Vec2 middle(printer.width / 2.0, printer.height / 2.0);
-    for (Vec2& point : contours.points) {
-      const Vec2 mm = (point - middle) * printer.pixel;
-      point = printer.right * mm.x - printer.up * mm.y;
-    }
-    if (printer.is_mirrored()) {
-      std::uint32_t begin = 0;
-      for (const std::uint32_t end : contours.ends) {
-        std::reverse(contours.points.begin() + begin,
-                     contours.points.begin() + end);
-        begin = end;
-      }
-    }
-    return contours;
+    return contours_on_panel(image.pixels, printer);
   }
 
   const std::string path_;

@@ -55,6 +55,8 @@ ReadLayers read_cli;
 ReadLayers read_layers_json;
 ReadLayers read_svg;
 ReadLayers read_3mf;
+ReadLayers read_ctb;
+ReadLayers read_goo;
 ReadLayers read_image_archive;
 ReadLayers read_image_folder;
 

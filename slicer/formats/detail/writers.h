@@ -30,6 +30,8 @@ using MakeLayerWriter = std::unique_ptr<LayerWriter>(
     TemporaryFiles& temporary_files);
 
 MakeLayerWriter make_cli_writer;
+MakeLayerWriter make_ctb_writer;
+MakeLayerWriter make_goo_writer;
 MakeLayerWriter make_image_stack_writer;
 MakeLayerWriter make_layers_json_writer;
 MakeLayerWriter make_slc_writer;

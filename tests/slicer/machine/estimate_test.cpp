@@ -43,7 +43,8 @@ TEST(EstimateText, SaysWhatIsKnown) {
   const Material silver = find_material("sterling-silver");
   const Printer mars = find_printer("elegoo-mars-3");
   EXPECT_EQ(estimate_text(mars, silver, estimate_print(mars, silver, 480, 256)),
-            "2.65 g of sterling silver, 2 h 16 min on Elegoo Mars 3");
+            "2.65 g of sterling silver, 2 h 16 min on Elegoo Mars 3 if a layer "
+            "is exposed for 8 s");
 }
 
 }  // namespace
