@@ -23,8 +23,8 @@
 #include "base/file/zip.h"
 #include "base/text.h"
 #include "slicer/formats/detail/image_stack.h"
-#include "slicer/formats/detail/panel/panel_contours.h"
 #include "slicer/formats/detail/reading.h"
+#include "slicer/pixels/panel_contours.h"
 
 namespace lamina::slicer {
 namespace {

@@ -4,7 +4,7 @@
 // The grey of a pixel is the share of it that the layer covers, by area. The
 // middle of the design's box stands in the middle of the panel.
 
-#include "slicer/formats/detail/panel/image_stack_writer.h"
+#include "slicer/formats/detail/image_stack_writer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@
 #include "base/file/zip_output.h"
 #include "base/text.h"
 #include "slicer/contour/layer_measures.h"
-#include "slicer/formats/detail/png_encoder.h"
 #include "slicer/formats/detail/writers.h"
+#include "slicer/pixels/png_encoder.h"
 
 namespace lamina::slicer {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "base/vec.h"
 #include "slicer/contour/layer.h"
-#include "slicer/formats/coverage.h"
 #include "slicer/picture/image.h"
+#include "slicer/pixels/coverage.h"
 
 namespace lamina::slicer {
 

@@ -134,8 +134,9 @@ TEST(TooLarge, NamesPrintersThatAreLargeEnough) {
                "The design is 80 x 120 x 20 mm, larger than what elegoo-mars-3 "
                "builds: 143.43 x 89.6 x 175 mm; turned by 90° it fits");
   const std::string words = too_large(mars, Vec3(20, 20, 280)).what();
-  EXPECT_NE(words.find("; it fits elegoo-jupiter (277.848 x 156.264 x 300 mm) "
-                       "or anycubic-photon-m3-max ("),
+  EXPECT_NE(words.find("; it fits elegoo-jupiter (277.848 x 156.264 x 300 mm), "
+                       "elegoo-jupiter-2 (302.4 x 161.98 x 300 mm) or "
+                       "anycubic-photon-m3-max ("),
             std::string::npos)
       << words;
   EXPECT_NE(std::string(too_large(mars, Vec3(4, 4, 400)).what())

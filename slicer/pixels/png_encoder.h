@@ -7,8 +7,8 @@
 #include <string>
 
 #include "plane/contours.h"
-#include "slicer/formats/coverage.h"
 #include "slicer/machine/printer.h"
+#include "slicer/pixels/coverage.h"
 
 namespace lamina::slicer {
 

@@ -1,4 +1,4 @@
-#include "slicer/formats/detail/png_encoder.h"
+#include "slicer/pixels/png_encoder.h"
 
 #include <cstdint>
 #include <new>
@@ -6,8 +6,8 @@
 
 #include <zlib.h>
 
-#include "slicer/formats/detail/grey_runs.h"
-#include "slicer/formats/detail/run_deflater.h"
+#include "slicer/pixels/detail/run_deflater.h"
+#include "slicer/pixels/grey_runs.h"
 
 namespace lamina::slicer {
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 
 #include "plane/contours.h"
-#include "slicer/formats/coverage.h"
+#include "slicer/pixels/coverage.h"
 
 namespace lamina::slicer {
 

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "slicer/formats/coverage.h"
 #include "slicer/formats/detail/image_stack.h"
-#include "slicer/formats/detail/preview.h"
 #include "slicer/formats/layer_writer.h"
+#include "slicer/pixels/coverage.h"
+#include "slicer/pixels/preview.h"
 
 namespace lamina::slicer {
 

@@ -1,11 +1,11 @@
-#include "slicer/formats/detail/panel/panel_contours.h"
+#include "slicer/pixels/panel_contours.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "slicer/contour/simplify.h"
-#include "slicer/formats/detail/pixel_contours.h"
+#include "slicer/pixels/detail/pixel_contours.h"
 
 namespace lamina::slicer {
 namespace {

@@ -1,4 +1,4 @@
-#include "slicer/formats/detail/png_encoder.h"
+#include "slicer/pixels/png_encoder.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "slicer/formats/coverage.h"
+#include "slicer/pixels/coverage.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "slicer/formats/detail/preview.h"
+#include "slicer/pixels/preview.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "slicer/formats/detail/grey_runs.h"
+#include "slicer/pixels/grey_runs.h"
 
 namespace lamina::slicer {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "base/vec.h"
 #include "slicer/contour/layer.h"
-#include "slicer/formats/coverage.h"
+#include "slicer/pixels/coverage.h"
 
 namespace lamina::slicer {
 

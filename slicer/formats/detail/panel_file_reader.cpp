@@ -14,10 +14,10 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "slicer/formats/detail/panel/byte_order.h"
-#include "slicer/formats/detail/panel/panel_contours.h"
-#include "slicer/formats/detail/panel/panel_formats.h"
+#include "slicer/formats/detail/byte_order.h"
+#include "slicer/formats/detail/panel_formats.h"
 #include "slicer/formats/detail/reading.h"
+#include "slicer/pixels/panel_contours.h"
 
 namespace lamina::slicer {
 namespace {

@@ -1,4 +1,4 @@
-#include "slicer/formats/detail/preview.h"
+#include "slicer/pixels/preview.h"
 
 #include <algorithm>
 #include <cmath>

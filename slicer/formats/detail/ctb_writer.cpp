@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "slicer/formats/detail/grey_runs.h"
-#include "slicer/formats/detail/panel/byte_order.h"
-#include "slicer/formats/detail/panel/image_stack_writer.h"
-#include "slicer/formats/detail/panel/panel_formats.h"
+#include "slicer/formats/detail/byte_order.h"
+#include "slicer/formats/detail/image_stack_writer.h"
+#include "slicer/formats/detail/panel_formats.h"
 #include "slicer/formats/detail/writers.h"
+#include "slicer/pixels/grey_runs.h"
 
 namespace lamina::slicer {
 namespace {

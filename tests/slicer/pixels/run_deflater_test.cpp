@@ -1,4 +1,4 @@
-#include "slicer/formats/detail/run_deflater.h"
+#include "slicer/pixels/detail/run_deflater.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "slicer/formats/detail/pixel_contours.h"
+#include "slicer/pixels/detail/pixel_contours.h"
 
 #include <algorithm>
 #include <array>
