@@ -1,4 +1,4 @@
-// The programs that the manual shows give what it says.
+// The programs that docs/languages.md shows give what it says.
 
 #include <sstream>
 #include <string>
@@ -13,7 +13,7 @@ namespace {
 
 // The lines of a section that are set in from the margin.
 std::string code_of_section(const std::string& heading) {
-  std::istringstream lines(read_text(LAMINA_USAGE));
+  std::istringstream lines(read_text(LAMINA_LANGUAGES));
   std::string code;
   bool is_inside = false;
   for (std::string line; std::getline(lines, line);) {
@@ -34,8 +34,8 @@ std::string echoes_in_comments(const std::string& code) {
   return echoes;
 }
 
-TEST(Usage, WhatIsNewerThan2021DoesWhatTheManualSays) {
-  const std::string code = code_of_section("### Newer than OpenSCAD 2021.01");
+TEST(LanguagesPage, WhatIsNewerThan2021DoesWhatItSays) {
+  const std::string code = code_of_section("## Newer features");
   const std::string echoes = echoes_in_comments(code);
   ASSERT_FALSE(echoes.empty());
   const support::TemporaryFolder folder;
