@@ -272,12 +272,13 @@ class PageMaker {
       places.add(print, options_.finding_source_lines);
       if (const std::size_t minor = print.count_minor()) {
         notes.push_back(
-            fmt::format("{} too small to matter.",
+            fmt::format("{} negligible.",
                         counted(minor, "more place is", "more places are")));
       }
       if (const Peel& peel = print.peel; peel.layer > 0) {
-        notes.push_back(fmt::format("Peel: {:.4g} mm² at most, in layer {}.",
-                                    peel.greatest_area, peel.layer));
+        notes.push_back(
+            fmt::format("Peel: largest cured area {:.4g} mm² (layer {}).",
+                        peel.greatest_area, peel.layer));
       }
     }
     if (options_.min_feature > 0) {
@@ -287,8 +288,9 @@ class PageMaker {
                      options_.min_feature, options_.source_lines);
       if (low > 0) {
         notes.push_back(
-            fmt::format("{} lower than it should be wide.",
-                        counted(low, "thin place is", "thin places are")));
+            fmt::format("{} less than {:g} mm high, and not listed.",
+                        counted(low, "thin place is", "thin places are"),
+                        options_.min_feature));
       }
     }
     return {{"places", places.rows()},

@@ -317,7 +317,7 @@ class ViewerTest(unittest.TestCase):
             file.write("cube(2);")
         lamina("view", self.path("cube.scad"), "-o", self.path("cube.html"))
         self.open("cube.html")
-        self.assertIn("Nothing found", self.browser.text("findings"))
+        self.assertIn("No problems found", self.browser.text("findings"))
 
     def test_it_says_what_the_print_takes(self):
         lamina("view", self.path("plate.slc"), "-o", self.path("takes.html"),

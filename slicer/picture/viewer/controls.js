@@ -103,7 +103,7 @@ class Viewer {
     const list = byId("findings");
     const kinds = groupBy(found.places, ({kind}) => kind);
     const heading = make("h2", found.places.length > 0 ? "Findings" :
-      found.hasPrint ? "Nothing found" : `Nothing thinner than ${this.part.minFeature} mm`);
+      found.hasPrint ? "No problems found" : `Nothing thinner than ${this.part.minFeature} mm`);
     list.append(heading);
     for (const [kind, places] of kinds) list.append(...this.listKind(kind, places));
     list.append(...found.notes.map((note) => make("p", note)));
@@ -134,7 +134,7 @@ class Viewer {
       if (origin) parts.push(make("em", origin));
     }
     if (listed.length < places.length) {
-      parts.push(make("p", `The first ${kListedPlaces} are listed.`));
+      parts.push(make("p", `Only the first ${kListedPlaces} are listed.`));
     }
     return parts;
   }
@@ -465,7 +465,7 @@ class Viewer {
     byId("distance").hidden = !this.isMeasuring;
     if (ends.length < 2) {
       byId("distance").innerHTML = ends.length === 0 ?
-        "<small>Click two points; corners and edges attract</small>" :
+        "<small>Click two points; clicks snap to corners and edges</small>" :
         "<small>Click the second point, in this layer or another</small>";
       return;
     }
@@ -492,7 +492,7 @@ async function start() {
   } catch (error) {
     byId("fault").hidden = false;
     byId("fault").textContent = typeof DecompressionStream === "undefined" ?
-      "This page needs a browser of 2023 or later." : `The page is damaged: ${error}`;
+      "This page needs a browser from 2023 or later." : `The page is damaged: ${error}`;
     throw error;
   }
 }

@@ -556,7 +556,7 @@ class Solid {
   // calls draw() with each. Throws where there is no WebGL.
   async open(draw) {
     const gl = this.canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
-    if (!gl) throw new Error("This browser has no WebGL 2, or has it turned off: no solid.");
+    if (!gl) throw new Error("The solid needs WebGL 2: this browser has no WebGL 2, or it is turned off.");
     this.lit = this.program(gl, kFragmentShader);
     this.flat = this.program(gl, kFlatShader);
     this.surface = this.corners(gl, true);
