@@ -36,6 +36,8 @@ void* open_library(const std::string& path) {
 
 std::vector<std::string> module_folders() {
   std::error_code error;
+  // In the portable archive (scripts/portable) it is the loader, which lies
+  // beside the program.
   fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) {
     // Where /proc is not mounted, the kernel has left the path that was run.
