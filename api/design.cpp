@@ -275,7 +275,7 @@ struct Design::State {
   slicer::SliceReport slice(const compiler::Request& asked,
                             slicer::LayerSink& sink,
                             Diagnostics& diagnostics) const {
-    const slicer::Settings settings = compiler::settings_of(asked);
+    const slicer::Settings settings = compiler::settings_of(asked, {});
     return compiler::slice(lowered, compiler::plan(lowered, settings), settings,
                            sink, {}, diagnostics);
   }
@@ -285,7 +285,8 @@ struct Design::State {
     require_valid(asked);
     Messages shown(show);
     return shown.run([&](Diagnostics& diagnostics) {
-      return compiler::look_at_design(lowered, asked, wanted, {}, diagnostics);
+      return compiler::look_at_design(lowered, asked, {}, wanted, {},
+                                      diagnostics);
     });
   }
 

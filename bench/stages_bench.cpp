@@ -41,7 +41,7 @@ struct Design {
                               compilation.diagnostics);
   }
   csg::Scene lower() {
-    return *compiler::lower(compilation.tree, request, compilation.readers,
+    return *compiler::lower(compilation.tree, request, {}, compilation.readers,
                             compilation.diagnostics)
                 .scene();
   }

@@ -37,7 +37,8 @@ auto timed(double& seconds, const Pass& pass) {
   return product;
 }
 
-// Does what finds that a design is nothing, and says why it is.
+// Does what finds that a design is nothing, or too large for the printer, and
+// says why it is, or what helps.
 template <typename Work>
 auto explained(const Compilation& c, const Work& work) {
   try {
@@ -46,6 +47,14 @@ auto explained(const Compilation& c, const Work& work) {
     Diagnostic fault = empty.diagnostic();
     fault.hints = c.emptiness;
     throw GeometryError(std::move(fault));
+  } catch (const slicer::TooLarge& large) {
+    const slicer::Printer& printer = *c.report.machine.printer;
+    const std::string options =
+        options_that_fit(printer, c.request.geometry, large.size);
+    if (options.empty()) throw;
+    throw GeometryError(fmt::format("{}; with {} it fits",
+                                    slicer::too_large_text(printer, large.size),
+                                    options));
   }
 }
 
@@ -79,6 +88,17 @@ bool ends_strictly(Compilation& c) {
   c.diagnostics.error(
       {}, fmt::format("not written: {} (first: {}); --no-strict writes it",
                       counted(warnings, "warning"), first->message));
+  return true;
+}
+
+// Whether what would go wrong in the print ends the run, without an output.
+bool ends_on_findings(Compilation& c) {
+  const auto& print = c.report.slice.print;
+  if (!print) return false;
+  const std::string counts = print->counts(c.request.job.print.fail_on);
+  if (counts.empty()) return false;
+  c.has_failed = true;
+  c.diagnostics.error({}, fmt::format("not written: {} (--fail-on)", counts));
   return true;
 }
 
@@ -116,7 +136,7 @@ bool write_dump(Compilation& c, OutputFile* rule) {
   if (ends_strictly(c)) return false;
   const OutputRequest& output = c.request.output;
   const std::string dump = slicer::dump_layer(
-      *lowered.scene(), plan(lowered, settings_of(c.request)),
+      *lowered.scene(), plan(lowered, settings_of(c.request, c.report.machine)),
       {*output.dump, *output.dump_height, slicer::is_named(output.path, ".svg"),
        &line_text});
   write_text(c, dump, rule);
@@ -166,12 +186,14 @@ bool compile(Compilation& c) {
   }
   if (c.has_failed) return false;
 
+  c.report.machine = choose_machine(request.output, c.file_access());
+
   // A look inside: one layer as a stage before layers has it.
   if (request.output.dump) return write_dump(c, rule.get());
 
   // The output is opened first: nothing is computed for a file that cannot be.
-  LayerOutput output =
-      LayerOutput::open(request, c.temporary_files, c.diagnostics);
+  LayerOutput output = LayerOutput::open(request, c.report.machine,
+                                         c.temporary_files, c.diagnostics);
 
   // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
   // leaves. The scene is turned and placed here, while it is still one thing.
@@ -180,9 +202,10 @@ bool compile(Compilation& c) {
   if (ends_strictly(c)) return false;
 
   // Plan, and slice layer by layer into the output.
-  c.report.slice = make_layers(c, lowered, settings_of(request), output.sink());
+  c.report.slice = make_layers(
+      c, lowered, settings_of(request, c.report.machine), output.sink());
   c.report.lines = find_lines(lowered, c.report.slice);
-  if (ends_strictly(c)) return false;
+  if (ends_strictly(c) || ends_on_findings(c)) return false;
 
   // Write the end of the output. It gets its name when all has gone well.
   output.finish(c.diagnostics, c.report);
@@ -202,7 +225,7 @@ bool make_tree(Compilation& c) {
 
 csg::Lowered lower_tree(Compilation& c) {
   csg::Lowered lowered = timed(c.report.lower_seconds, [&] {
-    return lower(c.tree, c.request, c.readers, c.diagnostics);
+    return lower(c.tree, c.request, c.report.machine, c.readers, c.diagnostics);
   });
   c.emptiness = csg::why_empty(c.tree);
   c.tree.drop_nodes();

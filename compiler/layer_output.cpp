@@ -18,20 +18,16 @@ std::optional<slicer::Deviation> promised_deviation(const Request& request) {
 
 }  // namespace
 
-LayerOutput::LayerOutput(Machine machine,
+LayerOutput::LayerOutput(const Machine& machine,
                          std::optional<slicer::Deviation> deviation,
                          std::unique_ptr<slicer::LayerWriter> writer)
-    : machine_(std::move(machine)),
-      deviation_(deviation),
-      writer_(std::move(writer)) {
+    : machine_(machine), deviation_(deviation), writer_(std::move(writer)) {
   if (machine_.printer) build_volume_.emplace(*machine_.printer, *writer_);
 }
 
-LayerOutput LayerOutput::open(const Request& request,
+LayerOutput LayerOutput::open(const Request& request, const Machine& machine,
                               TemporaryFiles& temporary_files,
                               Diagnostics& diagnostics) {
-  Machine machine =
-      choose_machine(request.output, temporary_files.file_access());
   warn_of_machine(machine, request, diagnostics);
   if (request.output.format == slicer::OutputFormat::kThreemf) {
     diagnostics.own_remark(
@@ -47,14 +43,13 @@ LayerOutput LayerOutput::open(const Request& request,
   if (deviation) options.deviation = deviation->from_section();
   auto writer =
       slicer::make_layer_writer(options, request.output.path, temporary_files);
-  return {std::move(machine), deviation, std::move(writer)};
+  return {machine, deviation, std::move(writer)};
 }
 
 void LayerOutput::finish(Diagnostics& diagnostics, Report& report) {
   writer_->finish(diagnostics);
   if (deviation_) deviation_->rounding = writer_->greatest_rounding();
   report.deviation = deviation_;
-  report.machine = machine_;
   report.estimate =
       slicer::estimate_print(machine_.printer, machine_.material,
                              report.slice.layers, report.slice.volume);

@@ -15,9 +15,11 @@ namespace lamina::compiler {
 
 class LayerOutput {
  public:
-  // Throws FileError where the output or a profile of the printer or the
-  // material cannot be opened. Warns of exposures that are not for them.
-  static LayerOutput open(const Request& request,
+  // Throws FileError where the output cannot be opened. Warns of exposures that
+  // are not for them.
+  //
+  // machine  outlives it
+  static LayerOutput open(const Request& request, const Machine& machine,
                           TemporaryFiles& temporary_files,
                           Diagnostics& diagnostics);
 
@@ -31,10 +33,11 @@ class LayerOutput {
   void finish(Diagnostics& diagnostics, Report& report);
 
  private:
-  LayerOutput(Machine machine, std::optional<slicer::Deviation> deviation,
+  LayerOutput(const Machine& machine,
+              std::optional<slicer::Deviation> deviation,
               std::unique_ptr<slicer::LayerWriter> writer);
 
-  const Machine machine_;
+  const Machine& machine_;
   std::optional<slicer::Deviation> deviation_;
   std::unique_ptr<slicer::LayerWriter> writer_;
   std::optional<slicer::BuildVolumeSink> build_volume_;  // of a printer

@@ -102,9 +102,9 @@ Inspection look_at_file(const std::string& path, const LookOptions& options,
 }
 
 Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
-                          const LookOptions& options, const Progress& progress,
-                          Diagnostics& diagnostics) {
-  const slicer::Settings settings = settings_of(request);
+                          const Machine& machine, const LookOptions& options,
+                          const Progress& progress, Diagnostics& diagnostics) {
+  const slicer::Settings settings = settings_of(request, machine);
   Looker looker(options, false, {});
   slicer::SliceReport report = slice(lowered, plan(lowered, settings), settings,
                                      looker, progress, diagnostics);
@@ -122,14 +122,17 @@ Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
 std::optional<Inspection> look_at(Compilation& c, const LookOptions& options) {
   const Request& request = c.request;
   const std::string& path = request.design.path;
+  c.report.machine = choose_machine(request.output, c.file_access());
   if (holds_layers(path, c.file_access())) {
     refuse_design_options(request.design, path);
-    return look_at_file(path, options, request.job.print, c.file_access());
+    return look_at_file(path, options,
+                        settings_of(request, c.report.machine).print,
+                        c.file_access());
   }
   const auto lowered = make_geometry(c);
   if (!lowered) return std::nullopt;
-  Inspection inspection =
-      look_at_design(*lowered, request, options, c.on_progress, c.diagnostics);
+  Inspection inspection = look_at_design(*lowered, request, c.report.machine,
+                                         options, c.on_progress, c.diagnostics);
   if (options.finds_defects && is_imported(path)) {
     inspection.found.meshes = csg::measure_mesh_file(path, c.file_access());
   }

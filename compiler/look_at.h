@@ -57,9 +57,9 @@ Inspection look_at_file(const std::string& path, const LookOptions& options,
                         const slicer::PrintRules& rules,
                         const FileAccess& access);
 
-// Looks at a design that has been made.
+// Looks at a design that has been made for a machine.
 Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
-                          const LookOptions& options, const Progress& progress,
-                          Diagnostics& diagnostics);
+                          const Machine& machine, const LookOptions& options,
+                          const Progress& progress, Diagnostics& diagnostics);
 
 }  // namespace lamina::compiler

@@ -1,6 +1,13 @@
 #include "compiler/machine.h"
 
+#include <cmath>
 #include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+
+#include "slicer/plan/orientation.h"
 
 namespace lamina::compiler {
 namespace {
@@ -21,6 +28,30 @@ bool is_for_printers(OutputFormat format) {
 }
 
 }  // namespace
+
+std::string options_that_fit(const slicer::Printer& printer,
+                             const GeometryRequest& geometry, Vec3 size) {
+  // A box that is turned by other angles is not the part's.
+  if (geometry.axis == kAutomaticAxis || std::fmod(geometry.turn, 90) != 0) {
+    return {};
+  }
+  const auto turned = [](std::string_view axis, double turn) {
+    const Affine matrix = slicer::turn_to_axis(axis, turn);
+    return glm::dmat3(glm::abs(matrix[0]), glm::abs(matrix[1]),
+                      glm::abs(matrix[2]));
+  };
+  const Vec3 design =
+      glm::transpose(turned(geometry.axis, geometry.turn)) * size;
+  for (const std::string_view axis :
+       {std::string_view(geometry.axis), slicer::kAxes[0], slicer::kAxes[1],
+        slicer::kAxes[2]}) {
+    for (const double turn : {0.0, 90.0}) {
+      if (!slicer::fits(printer, turned(axis, turn) * design)) continue;
+      return fmt::format("--axis {}{}", axis, turn != 0 ? " --turn 90" : "");
+    }
+  }
+  return {};
+}
 
 Machine choose_machine(const OutputRequest& request, const FileAccess& access) {
   Machine machine;

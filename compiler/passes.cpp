@@ -1,5 +1,6 @@
 #include "compiler/passes.h"
 
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -92,7 +93,8 @@ csg::LowerOptions lower_options(const GeometryRequest& request,
                                 Readers& readers) {
   csg::LowerOptions options;
   if (request.axis != kAutomaticAxis) {
-    options.world_from_design = slicer::turn_to_axis(request.axis);
+    options.world_from_design =
+        slicer::turn_to_axis(request.axis, request.turn);
   }
   options.chordal_error = request.chordal_error;
   options.decimation = request.decimation;
@@ -104,14 +106,41 @@ csg::LowerOptions lower_options(const GeometryRequest& request,
   return options;
 }
 
+// What would go wrong if the scene were printed as it stands.
+std::string problems_of(const csg::Scene& scene,
+                        const slicer::Settings& settings) {
+  slicer::LayerDrain sink;
+  Diagnostics unshown;  // the run itself will say it
+  const auto report = slicer::slice(scene, slicer::plan_layers(scene, settings),
+                                    settings, sink, unshown);
+  return report.print ? report.print->counts(slicer::kAllFindings) : "";
+}
+
+slicer::OrientationChoice choose_orientation(const csg::Scene& scene,
+                                             const Request& request,
+                                             const Machine& machine) {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  const slicer::Settings settings = settings_of(request, machine);
+  slicer::OrientationChoice choice = slicer::choose_orientation(
+      scene, settings.layer_thickness,
+      machine.printer ? machine.printer->build_volume() : Vec3(kAny));
+  for (slicer::Orientation& orientation : choice.all) {
+    if (!orientation.fits || orientation.size.z == 0) continue;
+    csg::Scene turned = scene;
+    csg::move_scene(turned, slicer::turn_to_axis(orientation.axis), Vec3(0));
+    orientation.problems = problems_of(turned, settings);
+  }
+  return choice;
+}
+
 // Moves the scene as a whole, which needs its surface.
-void place(const Request& request, csg::Scene& scene,
+void place(const Request& request, const Machine& machine, csg::Scene& scene,
            Diagnostics& diagnostics) {
   if (request.geometry.axis == kAutomaticAxis) {
     const slicer::OrientationChoice choice =
-        slicer::choose_orientation(scene, request.job.layer_thickness);
-    csg::move_scene(scene, slicer::turn_to_axis(choice.all[choice.best].axis),
-                    Vec3(0));
+        choose_orientation(scene, request, machine);
+    const slicer::Orientation& best = choice.all[choice.best];
+    csg::move_scene(scene, slicer::turn_to_axis(best.axis, best.turn), Vec3(0));
     std::istringstream table(slicer::orientation_table(choice));
     for (std::string line; std::getline(table, line);) {
       diagnostics.report({Severity::kPlain, {}, line});
@@ -219,11 +248,12 @@ csg::Tree evaluate(LoadedDesign& design, const Request& request,
 }
 
 csg::Lowered lower(const csg::Tree& tree, const Request& request,
-                   Readers& readers, Diagnostics& diagnostics) {
+                   const Machine& machine, Readers& readers,
+                   Diagnostics& diagnostics) {
   csg::Lowered lowered =
       csg::lower(tree, lower_options(request.geometry, readers), diagnostics);
   if (auto* scene = std::get_if<csg::Scene>(&lowered.geometry)) {
-    place(request, *scene, diagnostics);
+    place(request, machine, *scene, diagnostics);
   }
   return lowered;
 }
@@ -242,8 +272,14 @@ void judge(const csg::Lowered& lowered, const Request& request,
   warn_of_geometry(lowered, request, diagnostics);
 }
 
-slicer::Settings settings_of(const Request& request) {
+slicer::Settings settings_of(const Request& request, const Machine& machine) {
   slicer::Settings settings = request.job;
+  if (machine.printer) {
+    const Vec2 pixel = machine.printer->pixel;
+    settings.print.least_area = pixel.x * pixel.y;
+    settings.print.least_volume =
+        settings.print.least_area * settings.layer_thickness;
+  }
   settings.most_thickness_runs =
       slicer::most_thickness_runs(request.output.format);
   return settings;

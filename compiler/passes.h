@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.h"
 #include "compiler/counting_sink.h"
+#include "compiler/machine.h"
 #include "compiler/request.h"
 #include "csg/cad/cad_reader.h"
 #include "csg/lower/lower.h"
@@ -55,16 +56,20 @@ csg::Tree evaluate(LoadedDesign& design, const Request& request,
 
 // What the tree means, turned to the axis and placed on the bed: a scene, an
 // outline, or nothing.
+//
+// machine  for whose printer --axis auto chooses
 csg::Lowered lower(const csg::Tree& tree, const Request& request,
-                   Readers& readers, Diagnostics& diagnostics);
+                   const Machine& machine, Readers& readers,
+                   Diagnostics& diagnostics);
 
 // Throws GeometryError where that is nothing, or an outline that the format of
 // the output cannot hold; warns of what is probably not meant.
 void judge(const csg::Lowered& lowered, const Request& request,
            Diagnostics& diagnostics);
 
-// The settings of the request, with the limits of its format.
-slicer::Settings settings_of(const Request& request);
+// The settings of the request, with the limits of its format and of the
+// printer: what is smaller than its pixel is too small to matter.
+slicer::Settings settings_of(const Request& request, const Machine& machine);
 
 // Where the layers are; of an outline there is none. Throws GeometryError where
 // the solid is empty or has too many layers.

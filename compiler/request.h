@@ -51,6 +51,7 @@ struct DesignRequest {
 // How the design's solid becomes the one that is sliced.
 struct GeometryRequest {
   std::string axis = "z";  // of slicer::kAxes, or kAutomaticAxis
+  double turn = 0;         // about the axis, anticlockwise from above [degrees]
   bool is_placed_on_bed = false;
   double scale = 1;
   double chordal_error = 0;  // [mm]; 0: $fa and $fs decide

@@ -31,7 +31,7 @@ constexpr std::string_view kMoreThanZero = "must be more than 0 mm, not {0}";
 constexpr std::string_view kAtLeastAMillionth = "must be at least 0.000001 mm";
 constexpr std::string_view kFromTo = "must be from {1} to {2}, not {0}";
 
-constexpr std::array<NumberLimits, 15> kNumbers = {{
+constexpr std::array<NumberLimits, 16> kNumbers = {{
     {"--layer", kAboveZero, kUnlimited, kMoreThanZero,
      [](const Request& r) { return r.job.layer_thickness; }},
     {"--adaptive", kAboveZero, kUnlimited, kMoreThanZero,
@@ -54,6 +54,8 @@ constexpr std::array<NumberLimits, 15> kNumbers = {{
      [](const Request& r) { return static_cast<double>(r.job.threads); }, true},
     {"--scale", kLeastScale, kGreatestScale, kFromTo,
      [](const Request& r) { return r.geometry.scale; }},
+    {"--turn", -360, 360, "must be from {1} to {2} degrees, not {0}",
+     [](const Request& r) { return r.geometry.turn; }},
     {"--chordal-error", kLeastChordalError, kUnlimited, kAtLeastAMillionth,
      [](const Request& r) { return r.geometry.chordal_error; }, true},
     {"--decimate", kLeastChordalError, kUnlimited, kAtLeastAMillionth,
@@ -86,6 +88,11 @@ void require_heights(const std::vector<double>& heights) {
             "--heights: heights must rise");
 }
 
+void refuse_turn(const GeometryRequest& geometry) {
+  refuse_if(geometry.turn != 0 && geometry.axis == kAutomaticAxis,
+            "--axis auto turns the part itself, if it must; not with --turn");
+}
+
 void refuse_part(const DesignRequest& design) {
   refuse_if(!design.part.empty() && (design.text || !has_parts(design.path)),
             "--part names a part of a CAD file or a 3MF; '{}' is neither",
@@ -96,6 +103,8 @@ void refuse_contradictions(const slicer::Settings& job) {
   const bool is_paper = job.contour == slicer::ContourMode::kPaper;
   refuse_if(job.min_feature > 0 && is_paper,
             "--min-feature needs --contour faithful");
+  refuse_if(!job.print.fail_on.empty() && !slicer::makes_whole_print(job),
+            "--fail-on needs all layers, not --heights or --layers");
   refuse_if(job.paper.boxes == ldni::BoxMode::kGlobal && !is_paper,
             "--boxes global needs --contour paper");
   const bool is_adaptive = job.cusp > 0;
@@ -165,6 +174,7 @@ void validate(const Request& request) {
   require_word("--language", kLanguageWords, request.design.language);
   require_heights(request.job.heights);
   refuse_contradictions(request.job);
+  refuse_turn(request.geometry);
   refuse_part(request.design);
   refuse_misfits(request);
 }

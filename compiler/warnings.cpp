@@ -42,6 +42,7 @@ std::vector<std::string_view> settings_of_solids(const Request& request) {
   add("--adaptive", settings.cusp != usual.cusp);
   add("--heights", !settings.heights.empty());
   add("--axis", request.geometry.axis != Request().geometry.axis);
+  add("--turn", request.geometry.turn != 0);
   add("--place-on-bed", request.geometry.is_placed_on_bed);
   add("--tolerance",
       settings.tolerance != usual.tolerance && settings.tolerance != 0);

@@ -1,8 +1,6 @@
 // lamina check: what would go wrong in the print of a design or of layers.
 
 #include <algorithm>
-#include <array>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -11,7 +9,6 @@
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/options/design_options.h"
-#include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
 #include "cli/report/feature_table.h"
@@ -44,22 +41,19 @@ Each has its layers, its place, its size and, in a design, the line that makes
 it; the worst comes first. With --printer it says whether the part fits; with
 --min-feature, which walls and gaps are thin. What is smaller than a pixel of
 the printer (0.001 mm² where none is named) is only counted. The exit status is
-1 if something would go wrong.
+1 if something would go wrong, or with --fail-on, if that would.
 
   --printer P         the printer, as for slicing
   --material M        a resin or a metal, as for slicing
   --min-feature MM    report walls and gaps thinner than this
-  --allow KIND        islands, loose-parts, overhangs, suction-cups or
-                      resin-traps do no harm; may be repeated
+  --fail-on KINDS     of islands, loose-parts, overhangs, suction-cups and
+                      resin-traps, separated by commas, or all [all]
   --self-supporting MM
                       how far a layer may stand out over the one below [as far
                       as a surface of 45° does]
   --json              print all of it as JSON, of one file
   -h, --help          print this help
 )";
-
-constexpr std::array<std::string_view, slicer::kFindingKinds> kKindWords = {
-    "islands", "loose-parts", "overhangs", "suction-cups", "resin-traps"};
 
 class CheckCommand : public Command {
  public:
@@ -68,12 +62,7 @@ class CheckCommand : public Command {
   void add_options(OptionList& options) override {
     options.words("file", files_).required();
     options.flag("--json", is_json_);
-    options.texts("--allow",
-                  "{islands,loose-parts,overhangs,suction-cups,resin-traps}",
-                  [this](const std::string& word) { allow(word); });
-    options.number("--self-supporting", "length",
-                   request_.job.print.self_supporting);
-    options.number("--min-feature", "length", request_.job.min_feature);
+    add_print_options(options, request_);
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
     add_machine_options(options, request_);
@@ -90,6 +79,8 @@ class CheckCommand : public Command {
               "check needs whole layers, not --heights");
     refuse_if(is_json_ && files_.size() > 1, "--json takes one file");
     request_.job.finds_makers = true;
+    auto& fail_on = request_.job.print.fail_on;
+    if (fail_on.empty()) fail_on = slicer::kAllFindings;
   }
 
   int run(const Context& context) override {
@@ -100,74 +91,62 @@ class CheckCommand : public Command {
       Session session(request, is_quiet_, context);
       status = std::max(status, session.run([&] {
         if (&file == &files_.front()) context.expect_outputs({"-"});
-        return check_print(session.compilation, request.job.print);
+        return check_print(session.compilation);
       }));
     }
     return status;
   }
 
  private:
-  void allow(const std::string& word) {
-    const auto* const found = std::ranges::find(kKindWords, word);
-    require(found != kKindWords.end(), "--allow",
-            "islands, loose-parts, overhangs, suction-cups or resin-traps was "
-            "expected, not '{}'",
-            word);
-    allowed_.insert(
-        static_cast<slicer::FindingKind>(found - kKindWords.begin()));
-  }
-
-  // rules  those of the compilation's request
-  int check_print(compiler::Compilation& compilation,
-                  slicer::PrintRules& rules) const {
+  int check_print(compiler::Compilation& compilation) const {
     const compiler::Request& request = compilation.request;
-    const compiler::Machine machine =
-        compiler::choose_machine(request.output, compilation.file_access());
-    if (machine.printer) {
-      rules.least_area = machine.printer->pixel.x * machine.printer->pixel.y;
-      rules.least_volume = rules.least_area * request.job.layer_thickness;
-    }
     const bool is_file =
         compiler::holds_layers(request.design.path, compilation.file_access());
     const auto inspection = compiler::look_at(
         compilation, {.min_feature = is_file ? request.job.min_feature : 0});
     if (!inspection) return kFault;
+    const compiler::Machine& machine = compilation.report.machine;
     const auto& [found, lines, layers] = *inspection;
     report_skipped(compilation, found.file);
     const slicer::PrintCheck& print = *found.print;
     if (is_json_) {
       print_out(json_text(print_json(print, lines.findings)));
     } else {
-      print_out(text_of(*inspection, machine, request));
+      print_out(text_of(*inspection, machine, request, !is_file));
     }
     const bool fits =
         !machine.printer || slicer::fits(*machine.printer, found.box.size());
-    return fits && found.features.empty() &&
-                   std::ranges::all_of(print.findings,
-                                       [&](const slicer::Finding& finding) {
-                                         return finding.is_minor ||
-                                                allowed_.contains(finding.kind);
-                                       })
-               ? kDone
-               : kFault;
+    const bool harms = !print.counts(request.job.print.fail_on).empty();
+    return fits && found.features.empty() && !harms ? kDone : kFault;
+  }
+
+  // is_design  whether options of slicing can change how it stands
+  static std::string fit_line(const slicer::Printer& printer,
+                              const compiler::Request& request, Vec3 size,
+                              bool is_design) {
+    if (slicer::fits(printer, size)) {
+      return fmt::format("fits: {} on {}\n", size_text(size), printer.title);
+    }
+    const std::string options =
+        is_design ? compiler::options_that_fit(printer, request.geometry, size)
+                  : "";
+    return options.empty()
+               ? fmt::format("does not fit: {}\n",
+                             slicer::TooLarge(printer, size).what())
+               : fmt::format("does not fit: {}; with {} it fits\n",
+                             slicer::too_large_text(printer, size), options);
   }
 
   std::string text_of(const compiler::Inspection& inspection,
                       const compiler::Machine& machine,
-                      const compiler::Request& request) const {
+                      const compiler::Request& request, bool is_design) const {
     const slicer::Inspection& found = inspection.found;
     std::string text;
     if (files_.size() > 1) {
       text += fmt::format("{}\n", on_one_line(request.design.path));
     }
     if (machine.printer) {
-      const Vec3 size = found.box.size();
-      text +=
-          slicer::fits(*machine.printer, size)
-              ? fmt::format("fits: {} on {}\n", size_text(size),
-                            machine.printer->title)
-              : fmt::format("does not fit: {}\n",
-                            slicer::too_large(*machine.printer, size).what());
+      text += fit_line(*machine.printer, request, found.box.size(), is_design);
     }
     const std::string estimate = slicer::estimate_text(
         machine.printer, machine.material,
@@ -187,7 +166,6 @@ class CheckCommand : public Command {
   compiler::Request request_;
   bool is_quiet_ = false;
   bool is_json_ = false;
-  std::set<slicer::FindingKind> allowed_;
 };
 
 }  // namespace

@@ -40,31 +40,34 @@ std::string row_of(const Outcome& outcome) {
 }
 
 constexpr std::string_view kCsvHeader =
-    "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,seconds,warnings,"
-    "findings,error\r\n";
+    "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,price,"
+    "print_seconds,seconds,warnings,findings,error\r\n";
+
+// Empty where it is not known.
+std::string figure(double value) {
+  return value > 0 ? fmt::format("{}", value) : "";
+}
 
 std::string csv_of(const Piece& piece, const Outcome& outcome) {
   const std::string line = piece.line > 0 ? fmt::format("{}", piece.line) : "";
-  std::string figures = ",,,,,,,,,";
+  std::string figures = ",,,,,,,,,,";
   if (outcome.is_done()) {
     const compiler::Report& report = outcome.report;
+    const slicer::PrintEstimate& estimate = report.estimate;
     const Vec3 size = report.slice.box.size();
     figures = fmt::format(
-        "{},{},{},{},{},{},", report.slice.layers,
+        "{},{},{},{},{},{},{},{},{}", report.slice.layers,
         report.slice.box.is_empty()
             ? ",,"
             : fmt::format("{:.6g},{:.6g},{:.6g}", size.x, size.y, size.z),
-        report.slice.volume,
-        report.estimate.grams > 0 ? fmt::format("{}", report.estimate.grams)
-                                  : "",
-        report.wall_seconds, report.warnings,
+        report.slice.volume, figure(estimate.grams), figure(estimate.price),
+        figure(estimate.seconds), report.wall_seconds, report.warnings,
         csv_words(report.slice.print ? finding_counts(*report.slice.print)
                                      : ""));
-  } else {
-    figures += csv_words(outcome.error);
   }
-  return fmt::format("{},{},{},{}\r\n", line, csv_words(piece.name),
-                     csv_words(piece.request.output.path), figures);
+  return fmt::format("{},{},{},{},{}\r\n", line, csv_words(piece.name),
+                     csv_words(piece.request.output.path), figures,
+                     csv_words(outcome.error));
 }
 
 std::string json_of(const Piece& piece, const Outcome& outcome) {
@@ -93,8 +96,13 @@ Outcomes::Outcomes(const PiecesOptions& options, std::uint64_t count,
 
 Outcomes::Entry Outcomes::describe(const Piece& piece,
                                    const Outcome& outcome) const {
-  if (outcome.status == Status::kStood) return {outcome.status, "", "", ""};
-  Entry entry{outcome.status, "", "", ""};
+  Entry entry;
+  entry.status = outcome.status;
+  if (outcome.status == Status::kStood) return entry;
+  if (outcome.is_done()) {
+    entry.machine = outcome.report.machine;
+    entry.estimate = outcome.report.estimate;
+  }
   if (count_ <= kMostRows || !outcome.is_done()) {
     entry.name = short_name(piece.name);
     entry.row = row_of(outcome);
@@ -109,6 +117,13 @@ void Outcomes::add(const Entry& entry) {
      : entry.status == Status::kFailed ? failed_
                                        : stood_);
   if (entry.status == Status::kStood) return;
+  if (entry.status == Status::kDone) {
+    machine_ = entry.machine;
+    total_.volume += entry.estimate.volume;
+    total_.grams += entry.estimate.grams;
+    total_.price += entry.estimate.price;
+    total_.seconds += entry.estimate.seconds;
+  }
   if (!entry.row.empty()) {
     if (rows_.size() < kMostRows) {
       rows_.emplace_back(entry.name, entry.row);
@@ -135,6 +150,12 @@ std::string Outcomes::table(double seconds) const {
   if (untold_ > 0) table += fmt::format("... and {} more failed\n", untold_);
   const std::string stood =
       stood_ > 0 ? fmt::format(" ({} of them before)", stood_) : "";
+  const std::string total =
+      slicer::estimate_text(machine_.printer, machine_.material, total_);
+  if (!total.empty()) {
+    table +=
+        fmt::format("in all{}: {}\n", stood_ > 0 ? " of this run" : "", total);
+  }
   return table + fmt::format("{} of {} {} done{}, {} failed, in {:.3f} s",
                              done_ + stood_, count_, options_.unit, stood,
                              failed_, seconds);
@@ -147,7 +168,9 @@ void Outcomes::commit_report(double seconds) {
                   {"failed", failed_},
                   {"total_seconds", process_seconds()},
                   {"wall_seconds", seconds},
-                  {"peak_memory_bytes", peak_memory_bytes()}};
+                  {"peak_memory_bytes", peak_memory_bytes()},
+                  {"volume_mm3", total_.volume}};
+  members.update(machine_json(machine_, total_));
   if (stood_ > 0) members["done_before"] = stood_;
   json_->commit(std::move(members), "pieces");
 }

@@ -47,6 +47,8 @@ class Outcomes {
     std::string name;
     std::string row;     // behind the name
     std::string report;  // of the file
+    compiler::Machine machine;
+    slicer::PrintEstimate estimate;
   };
   // Safe to call from several threads.
   Entry describe(const Piece& piece, const Outcome& outcome) const;
@@ -72,6 +74,8 @@ class Outcomes {
   std::uint64_t done_ = 0;
   std::uint64_t failed_ = 0;
   std::uint64_t stood_ = 0;
+  compiler::Machine machine_;    // of all pieces
+  slicer::PrintEstimate total_;  // of those that this run made
 };
 
 }  // namespace lamina::cli

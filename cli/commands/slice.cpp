@@ -86,7 +86,10 @@ Slicing (lengths in millimetres):
   --adaptive CUSP     adaptive layers: steps on the surface no larger than CUSP,
                       thicknesses in multiples of --layer
   --axis AXIS         direction of building: z, x, y, -x, -y, -z, or auto: the
-                      one with the fewest steps, least height and overhang [z]
+                      one that fits the printer, with the fewest steps, least
+                      height and overhang [z]
+  --turn DEG          turn the design about that axis, anticlockwise seen from
+                      above [0]
   --place-on-bed      put the lowest point of the design at height 0
   --scale FACTOR      enlarge the print, by 1.02 where casting shrinks [1]
   --compensate MM     move contours into the solid by half the width of the
@@ -95,6 +98,9 @@ Slicing (lengths in millimetres):
 Checks:
   --min-feature MM    report walls and gaps thinner than this, and what makes
                       them
+  --fail-on KINDS     write nothing if the print has islands, loose-parts,
+                      overhangs, suction-cups or resin-traps (separated by
+                      commas), or all of them
   --report FILE       write times, counts, memory, tolerances, thin features and
                       likely print failures as JSON
 
@@ -139,6 +145,9 @@ More of slicing:
                       contour; 0 writes all [0.001]
   --ray auto|MM       distance of the rays; speed only, except for
                       --contour paper [auto]
+  --self-supporting MM
+                      how far a layer may stand out over the one below before
+                      it counts as an overhang [as far as a surface of 45° does]
   --threads N         number of threads [as many as the machine has]
 
 Files (for designs that strangers write; see docs/usage.md):

@@ -1,5 +1,12 @@
 #include "cli/options/design_options.h"
 
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/ranges.h>
+
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "slicer/formats/output_format.h"
@@ -11,6 +18,27 @@ namespace {
 template <typename Words>
 std::vector<std::string> texts(const Words& words) {
   return {words.begin(), words.end()};
+}
+
+// As slicer::FindingKind.
+constexpr std::array<std::string_view, slicer::kFindingKinds> kFindingWords = {
+    "islands", "loose-parts", "overhangs", "suction-cups", "resin-traps"};
+
+// words  "islands,loose-parts", "all"
+void add_findings(const std::string& words, slicer::PrintRules& rules) {
+  std::istringstream list(words);
+  for (std::string word; std::getline(list, word, ',');) {
+    if (word == "all") {
+      rules.fail_on = slicer::kAllFindings;
+      continue;
+    }
+    const auto* const found = std::ranges::find(kFindingWords, word);
+    require(found != kFindingWords.end(), "--fail-on",
+            "{} or all was expected, not '{}'", fmt::join(kFindingWords, ", "),
+            word);
+    rules.fail_on.insert(
+        static_cast<slicer::FindingKind>(found - kFindingWords.begin()));
+  }
 }
 
 }  // namespace
@@ -74,6 +102,7 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.choice(
       "--axis", texts(compiler::kAxisWords),
       [&](const std::string& axis) { request.geometry.axis = axis; });
+  options.number("--turn", "degrees", request.geometry.turn);
   options.flag("--place-on-bed", request.geometry.is_placed_on_bed);
   options.choice(
       "--contour", {"faithful", "paper"}, [&](const std::string& mode) {
@@ -109,6 +138,16 @@ void add_machine_options(OptionList& options, compiler::Request& request) {
   options.name("--material", "material", request.output.material);
 }
 
+void add_print_options(OptionList& options, compiler::Request& request) {
+  slicer::PrintRules& rules = request.job.print;
+  options.number("--min-feature", "length", request.job.min_feature);
+  options.number("--self-supporting", "length", rules.self_supporting);
+  options.texts(
+      "--fail-on",
+      "{islands,loose-parts,overhangs,suction-cups,resin-traps,all}",
+      [&rules](const std::string& words) { add_findings(words, rules); });
+}
+
 void add_output_options(OptionList& options, compiler::Request& request,
                         OutputOptions& output) {
   options.name("--export-format", "format", output.export_format);
@@ -129,7 +168,7 @@ void add_output_options(OptionList& options, compiler::Request& request,
                    request.output.mirrors_y = axes != "x";
                  });
   options.name("--report", "file", output.report);
-  options.number("--min-feature", "length", request.job.min_feature);
+  add_print_options(options, request);
   options.layer_range(request.job.written);
 }
 

@@ -32,8 +32,12 @@ struct OutputOptions {
 // Adds --printer and --material. `request` outlives `options`.
 void add_machine_options(OptionList& options, compiler::Request& request);
 
+// Adds --min-feature, --self-supporting and --fail-on. `request` outlives
+// `options`.
+void add_print_options(OptionList& options, compiler::Request& request);
+
 // Adds the options that say what is written and how: those that --help calls
-// Output, save -o, and --report, --layers and --min-feature. `request` and
+// Output, save -o, and --report, --layers and those of the print. `request` and
 // `output` outlive the list.
 void add_output_options(OptionList& options, compiler::Request& request,
                         OutputOptions& output);

@@ -113,14 +113,7 @@ void append_row(const Row& row, std::string& text) {
 }  // namespace
 
 std::string finding_counts(const PrintCheck& print) {
-  std::string text;
-  for (std::size_t i = 0; i < slicer::kFindingKinds; ++i) {
-    const auto kind = static_cast<FindingKind>(i);
-    const std::size_t count = print.count(kind);
-    if (count == 0) continue;
-    text += fmt::format("{}{}", text.empty() ? "" : ", ",
-                        counted(count, name_of(kind)));
-  }
+  std::string text = print.counts(slicer::kAllFindings);
   if (text.empty()) text = "no problems found";
   if (const std::size_t minor = print.count_minor()) {
     text += fmt::format(" ({} too small to matter)", minor);

@@ -170,25 +170,6 @@ Json paper_json(const slicer::SliceReport& slice, ldni::SamplerKind sampler) {
           {"repaired_pixels", paper.repaired_pixels}};
 }
 
-// What is known of the machine, and what the print takes.
-Json machine_json(const compiler::Report& report) {
-  const auto& [printer, material] = report.machine;
-  Json json = Json::object();
-  if (printer) json["printer"] = printer->name;
-  if (material) {
-    json["material"] = material->name;
-    json["grams"] = report.estimate.grams;
-  }
-  if (report.estimate.price > 0) {
-    json["price"] = report.estimate.price;
-    json["currency"] = material->currency;
-  }
-  if (report.estimate.seconds > 0) {
-    json["print_seconds"] = report.estimate.seconds;
-  }
-  return json;
-}
-
 // whole  what the whole program took; empty for one compilation among several
 Json report_with(const compiler::Compilation& compilation, const Json& whole) {
   const compiler::Report& report = compilation.report;
@@ -202,7 +183,7 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
   if (report.slice.print) {
     json["print"] = print_json(*report.slice.print, report.lines.findings);
   }
-  json.update(machine_json(report));
+  json.update(machine_json(report.machine, report.estimate));
   if (settings.min_feature > 0) {
     json["min_feature_mm"] = number(settings.min_feature);
     json["features"] = features_json(report, settings.min_feature);
@@ -303,6 +284,23 @@ Json print_json(const slicer::PrintCheck& print,
     if (i < lines.size()) finding["made_by"] = lines_json(lines[i]);
   }
   return {{"peel", peel_json(print.peel)}, {"findings", std::move(findings)}};
+}
+
+Json machine_json(const compiler::Machine& machine,
+                  const slicer::PrintEstimate& estimate) {
+  const auto& [printer, material] = machine;
+  Json json = Json::object();
+  if (printer) json["printer"] = printer->name;
+  if (material) {
+    json["material"] = material->name;
+    json["grams"] = estimate.grams;
+  }
+  if (estimate.price > 0) {
+    json["price"] = estimate.price;
+    json["currency"] = material->currency;
+  }
+  if (estimate.seconds > 0) json["print_seconds"] = estimate.seconds;
+  return json;
 }
 
 std::string feature_lines(const compiler::Compilation& compilation) {

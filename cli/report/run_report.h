@@ -36,6 +36,10 @@ std::string json_text(const nlohmann::ordered_json& json);
 nlohmann::ordered_json print_json(const slicer::PrintCheck& print,
                                   std::span<const compiler::SourceLines> lines);
 
+// The printer and the material, and what the print takes.
+nlohmann::ordered_json machine_json(const compiler::Machine& machine,
+                                    const slicer::PrintEstimate& estimate);
+
 // The table of thin features that were found, without the last '\n'.
 std::string feature_lines(const compiler::Compilation& compilation);
 

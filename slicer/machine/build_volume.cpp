@@ -30,7 +30,7 @@ void BuildVolumeSink::take_encoded(const Layer& layer,
     fits = fits && point.x >= box_.low.x && point.x <= box_.high.x &&
            point.y >= box_.low.y && point.y <= box_.high.y;
   }
-  if (!fits) throw too_large(printer_, size_);
+  if (!fits) throw TooLarge(printer_, size_);
   sink_.take_encoded(layer, encoded);
 }
 

@@ -6,7 +6,7 @@
 
 namespace lamina::slicer {
 
-// Hands layers on, and throws too_large() at the first that reaches beyond what
+// Hands layers on, and throws TooLarge at the first that reaches beyond what
 // the printer builds around the middle of the part.
 class BuildVolumeSink : public LayerSink {
  public:

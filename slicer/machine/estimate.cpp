@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,13 @@ std::string duration_text(double seconds) {
   if (minutes < 1) return fmt::format("{:.0f} s", seconds);
   if (minutes < 60) return fmt::format("{} min", minutes);
   return fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+// "12.3 g", "1.23 kg"
+std::string amount_text(double amount, std::string_view unit,
+                        std::string_view thousand) {
+  return amount < 999.5 ? fmt::format("{:.3g} {}", amount, unit)
+                        : fmt::format("{:.4g} {}", amount / 1000, thousand);
 }
 
 }  // namespace
@@ -64,11 +72,12 @@ std::string estimate_text(const std::optional<Printer>& printer,
   };
   const bool is_resin = material && material->exposure > 0;
   if (is_resin || (printer && !material)) {
-    add(fmt::format("{:.3g} ml of {}", estimate.volume / 1000,
+    add(fmt::format("{} of {}", amount_text(estimate.volume / 1000, "ml", "l"),
                     material ? material->title : "resin"));
-    if (material) add(fmt::format("{:.3g} g", estimate.grams));
+    if (material) add(amount_text(estimate.grams, "g", "kg"));
   } else if (material) {
-    add(fmt::format("{:.3g} g of {}", estimate.grams, material->title));
+    add(fmt::format("{} of {}", amount_text(estimate.grams, "g", "kg"),
+                    material->title));
   }
   if (estimate.price > 0) {
     add(fmt::format("{:.2f} {}", estimate.price, material->currency));

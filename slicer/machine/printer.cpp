@@ -139,6 +139,31 @@ bool fits(Vec3 size, Vec3 volume) {
   return size.x <= volume.x && size.y <= volume.y && size.z <= volume.z;
 }
 
+// "it fits elegoo-saturn (192 x 120 x 200 mm) or …"
+std::string larger_printers(Vec3 size) {
+  const Vec3 turned(size.y, size.x, size.z);
+  std::vector<Printer> larger = known_printers();
+  std::erase_if(larger, [&](const Printer& other) {
+    return other.build_height == 0 || (!fits(size, other.build_volume()) &&
+                                       !fits(turned, other.build_volume()));
+  });
+  std::ranges::stable_sort(larger, {}, [](const Printer& other) {
+    const Vec3 volume = other.build_volume();
+    return volume.x * volume.y * volume.z;
+  });
+  if (larger.empty()) return "lamina knows no printer that is large enough";
+  if (larger.size() > kMostNamed) larger.resize(kMostNamed);
+  std::string words = "it fits";
+  for (std::size_t i = 0; i < larger.size(); ++i) {
+    words += fmt::format("{} {} ({})",
+                         i == 0                   ? ""
+                         : i + 1 == larger.size() ? " or"
+                                                  : ",",
+                         larger[i].name, volume_text(larger[i].build_volume()));
+  }
+  return words;
+}
+
 }  // namespace
 
 Vec3 Printer::build_volume() const {
@@ -169,39 +194,17 @@ bool fits(const Printer& printer, Vec3 size) {
   return fits(size, printer.build_volume());
 }
 
-GeometryError too_large(const Printer& printer, Vec3 size) {
-  std::string words = fmt::format(
+std::string too_large_text(const Printer& printer, Vec3 size) {
+  return fmt::format(
       "The design is {:.6g} x {:.6g} x {:.6g} mm, larger than what {} builds: "
       "{}",
       size.x, size.y, size.z, printer.name,
       volume_text(printer.build_volume()));
-  const Vec3 turned(size.y, size.x, size.z);
-  if (fits(turned, printer.build_volume())) {
-    return GeometryError(words + "; turned by 90° it fits");
-  }
-  std::vector<Printer> larger = known_printers();
-  std::erase_if(larger, [&](const Printer& other) {
-    return other.build_height == 0 || (!fits(size, other.build_volume()) &&
-                                       !fits(turned, other.build_volume()));
-  });
-  std::ranges::stable_sort(larger, {}, [](const Printer& other) {
-    const Vec3 volume = other.build_volume();
-    return volume.x * volume.y * volume.z;
-  });
-  if (larger.empty()) {
-    return GeometryError(words +
-                         "; lamina knows no printer that is large enough");
-  }
-  if (larger.size() > kMostNamed) larger.resize(kMostNamed);
-  words += "; it fits";
-  for (std::size_t i = 0; i < larger.size(); ++i) {
-    words += fmt::format("{} {} ({})",
-                         i == 0                   ? ""
-                         : i + 1 == larger.size() ? " or"
-                                                  : ",",
-                         larger[i].name, volume_text(larger[i].build_volume()));
-  }
-  return GeometryError(words);
 }
+
+TooLarge::TooLarge(const Printer& printer, Vec3 its_size)
+    : GeometryError(fmt::format("{}; {}", too_large_text(printer, its_size),
+                                larger_printers(its_size))),
+      size(its_size) {}
 
 }  // namespace lamina::slicer

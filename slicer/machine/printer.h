@@ -79,10 +79,16 @@ Printer find_printer(const std::string& name_or_file,
 // Whether it builds a part of that size along the axes of the design [mm].
 bool fits(const Printer& printer, Vec3 size);
 
-// Says that a part is larger than what the printer builds, and which known
-// printers are large enough.
-//
-// size  of the part along the axes of the design [mm]
-GeometryError too_large(const Printer& printer, Vec3 size);
+// A part is larger than what the printer builds. Its message names known
+// printers that are large enough.
+struct TooLarge : GeometryError {
+  // size  of the part along the axes of the design [mm]
+  TooLarge(const Printer& printer, Vec3 its_size);
+
+  Vec3 size;
+};
+
+// "The design is 200 x 10 x 10 mm, larger than what elegoo-mars-3 builds: …"
+std::string too_large_text(const Printer& printer, Vec3 size);
 
 }  // namespace lamina::slicer

@@ -4,13 +4,17 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/move_scene.h"
+#include "csg/degrees.h"
 #include "plane/tie_distance.h"
 
 namespace lamina::slicer {
@@ -50,6 +54,8 @@ struct Sums {
   double lies_low = 0;
   double lies_high = 0;
 
+  double size() const { return high - low; }
+
   void take(double area, double normal, double face_low, double face_high) {
     const bool is_flat = face_high - face_low <= kSame;
     if (!is_flat) steps += area * std::abs(normal);
@@ -85,15 +91,36 @@ Surface measure_surface(const csg::Scene& scene) {
   return surface;
 }
 
+bool fits(Vec3 size, Vec3 volume) {
+  return glm::all(glm::lessThanEqual(size, volume + kSame));
+}
+
+// The part as it stands, turned by a quarter where it fits only so.
+void fit(Orientation& orientation, Vec3 size, Vec3 volume) {
+  const Affine turn = turn_to_axis(orientation.axis);
+  for (int i = 0; i < 3; ++i) orientation.size += glm::abs(turn[i]) * size[i];
+  if (fits(orientation.size, volume)) return;
+  std::swap(orientation.size.x, orientation.size.y);
+  orientation.fits = fits(orientation.size, volume);
+  if (orientation.fits) {
+    orientation.turn = 90;
+  } else {
+    std::swap(orientation.size.x, orientation.size.y);
+  }
+}
+
 Orientation orientation_along(std::string_view axis, const Surface& surface,
-                              double thickness) {
+                              double thickness, Vec3 volume) {
   const bool is_reversed = axis.front() == '-';
   const Sums& sums = surface.along[static_cast<std::size_t>(axis.back() - 'x')];
   Orientation orientation;
   orientation.axis = axis;
   if (surface.area == 0) return orientation;
   orientation.cusp_error = sums.steps * thickness;
-  orientation.height = sums.high - sums.low;
+  fit(orientation,
+      {surface.along[0].size(), surface.along[1].size(),
+       surface.along[2].size()},
+      volume);
   orientation.footing = is_reversed ? sums.lies_high : sums.lies_low;
   const double looks_down = is_reversed ? sums.looks_up : sums.looks_down;
   orientation.overhang = std::max(looks_down - orientation.footing, 0.0);
@@ -102,9 +129,11 @@ Orientation orientation_along(std::string_view axis, const Surface& surface,
 
 }  // namespace
 
-Affine turn_to_axis(std::string_view axis) {
-  const Vec3 x(1, 0, 0);
-  const Vec3 y(0, 1, 0);
+Affine turn_to_axis(std::string_view axis, double degrees) {
+  const double cosine = csg::cos_deg(degrees);
+  const double sine = csg::sin_deg(degrees);
+  const Vec3 x(cosine, sine, 0);
+  const Vec3 y(-sine, cosine, 0);
   const Vec3 z(0, 0, 1);
   const Vec3 no_shift(0);
   // Columns: where x, y and z of the design go.
@@ -113,15 +142,15 @@ Affine turn_to_axis(std::string_view axis) {
   if (axis == "-x") return Affine(-z, y, x, no_shift);
   if (axis == "-y") return Affine(x, -z, y, no_shift);
   if (axis == "-z") return Affine(x, -y, -z, no_shift);
-  return Affine(1.0);
+  return Affine(x, y, z, no_shift);
 }
 
-OrientationChoice choose_orientation(const csg::Scene& scene,
-                                     double thickness) {
+OrientationChoice choose_orientation(const csg::Scene& scene, double thickness,
+                                     Vec3 volume) {
   const Surface surface = measure_surface(scene);
   OrientationChoice choice;
   for (std::size_t i = 0; i < kAxes.size(); ++i) {
-    choice.all[i] = orientation_along(kAxes[i], surface, thickness);
+    choice.all[i] = orientation_along(kAxes[i], surface, thickness, volume);
   }
   std::vector<std::size_t> left = {0, 1, 2, 3, 4, 5};
   const auto keep_best = [&](std::string_view name, double tolerance,
@@ -139,9 +168,10 @@ OrientationChoice choose_orientation(const csg::Scene& scene,
   };
   using O = Orientation;
   const double same_area = kSame * surface.area;
+  keep_best("what fits", 0, [](const O& o) { return o.fits ? 0. : 1.; });
   keep_best("the least cusp error", same_area * thickness,
             [](const O& o) { return o.cusp_error; });
-  keep_best("the least height", kSame, [](const O& o) { return o.height; });
+  keep_best("the least height", kSame, [](const O& o) { return o.size.z; });
   keep_best("the least overhang", same_area,
             [](const O& o) { return o.overhang; });
   keep_best("the most on the bed", same_area,
@@ -159,9 +189,14 @@ std::string orientation_table(const OrientationChoice& choice) {
       out, "  axis  cusp error mm³  height mm  overhang mm²  on the bed mm²\n");
   for (std::size_t i = 0; i < choice.all.size(); ++i) {
     const Orientation& row = choice.all[i];
-    fmt::format_to(out, "{} {:>4} {:>15.4f} {:>10.4f} {:>13.4f} {:>15.4f}\n",
+    fmt::format_to(out, "{} {:>4} {:>15.4f} {:>10.4f} {:>13.4f} {:>15.4f}",
                    i == choice.best ? '*' : ' ', row.axis, row.cusp_error,
-                   row.height, row.overhang, row.footing);
+                   row.size.z, row.overhang, row.footing);
+    if (!row.fits) text += "  too large";
+    if (row.turn != 0) fmt::format_to(out, "  turned by {:g}°", row.turn);
+    if (!row.problems.empty())
+      fmt::format_to(out, "\n{:7}{}", "", row.problems);
+    text += '\n';
   }
   text.pop_back();
   return text;

@@ -26,17 +26,25 @@ inline constexpr std::array<std::string_view, 6> kAxes = {"z",  "x",  "y",
                                                           "-x", "-y", "-z"};
 
 // The right-handed turn that makes `axis`, one of kAxes, the building
-// direction.
-Affine turn_to_axis(std::string_view axis);
+// direction, and turns the part about it.
+//
+// degrees  anticlockwise, seen from above
+Affine turn_to_axis(std::string_view axis, double degrees = 0);
 
 // The merits of a direction.
 struct Orientation {
   std::string_view axis;
   double cusp_error = 0;  // area · cusp [mm³]
-  double height = 0;      // of the surface [mm]
+  Vec3 size = Vec3(0);    // of the surface, as it stands [mm]
   // Surface that looks down by more than 45° and does not lie on the bed [mm²].
   double overhang = 0;
   double footing = 0;  // surface that lies on the bed [mm²]
+  // Into the printer: as it stands, or turned by this [degrees].
+  bool fits = true;
+  double turn = 0;
+  // What would go wrong in the print: "2 islands"; empty where nothing is
+  // known.
+  std::string problems;
 };
 
 struct OrientationChoice {
@@ -45,8 +53,12 @@ struct OrientationChoice {
   std::string reason;              // for the user: where it is best
 };
 
+// Chooses among those directions that fit, if any does.
+//
 // thickness  of layers [mm]
-OrientationChoice choose_orientation(const csg::Scene& scene, double thickness);
+// volume     that the printer builds [mm]; infinite where none is known
+OrientationChoice choose_orientation(const csg::Scene& scene, double thickness,
+                                     Vec3 volume);
 
 // For the user: the choice, its reason, and a line for each direction, without
 // the last '\n'.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <fmt/format.h>
@@ -22,9 +23,12 @@ using slicer::Orientation;
 using slicer::OrientationChoice;
 using support::Design;
 
-OrientationChoice choice_of(const std::string& text, double thickness = 0.1) {
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
+OrientationChoice choice_of(const std::string& text, double thickness = 0.1,
+                            Vec3 volume = Vec3(kAny)) {
   const Design design = Design::from_text(text);
-  return slicer::choose_orientation(design.scene(), thickness);
+  return slicer::choose_orientation(design.scene(), thickness, volume);
 }
 
 std::string_view best_of(const std::string& text) {
@@ -48,7 +52,7 @@ TEST(ChooseOrientation, HeightDecidesWhereNothingSteps) {
   const OrientationChoice choice = choice_of("cube([20, 30, 2]);");
   // All faces of a plate are flat or upright.
   for (const Orientation& o : choice.all) EXPECT_NEAR(o.cusp_error, 0, 1e-12);
-  EXPECT_NEAR(of_axis(choice, "-y").height, 30, 1e-12);
+  EXPECT_NEAR(of_axis(choice, "-y").size.z, 30, 1e-12);
   EXPECT_EQ(choice.reason, "the least height");
 }
 
@@ -84,8 +88,8 @@ TEST(ChooseOrientation, AConeOnItsBaseHangsOverNowhere) {
 TEST(ChooseOrientation, HeightIsTheSizeAlongTheAxis) {
   const OrientationChoice choice =
       choice_of("cylinder(r1 = 3, r2 = 0, h = 4, $fn = 200);");
-  EXPECT_NEAR(of_axis(choice, "x").height, 6, 1e-9);
-  EXPECT_NEAR(of_axis(choice, "z").height, 4, 1e-9);
+  EXPECT_NEAR(of_axis(choice, "x").size.z, 6, 1e-9);
+  EXPECT_NEAR(of_axis(choice, "z").size.z, 4, 1e-9);
 }
 
 TEST(ChooseOrientation, OverhangIsWhatLooksDownSteeplyAndLiesNotOnTheBed) {
@@ -120,7 +124,7 @@ TEST(ChooseOrientation, TurningTheDesignTurnsTheChoice) {
         choice_of(fmt::format("{} {{ {} }}", turn, kOdd));
     const Orientation& chosen = turned.all[turned.best];
     EXPECT_NEAR(chosen.cusp_error, best.cusp_error, 1e-6);
-    EXPECT_NEAR(chosen.height, best.height, 1e-6);
+    EXPECT_NEAR(chosen.size.z, best.size.z, 1e-6);
     EXPECT_NEAR(chosen.overhang, best.overhang, 1e-5);
     const Vec3 found =
         glm::inverse(glm::dmat3(slicer::turn_to_axis(chosen.axis))) *

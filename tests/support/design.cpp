@@ -23,8 +23,8 @@ struct Design::State {
   void build() {
     try {
       compiler::make_tree(compilation);
-      lowered = compiler::lower(compilation.tree, request, compilation.readers,
-                                compilation.diagnostics);
+      lowered = compiler::lower(compilation.tree, request, {},
+                                compilation.readers, compilation.diagnostics);
     } catch (const InternalError&) {
       throw;
     } catch (const Error& error) {

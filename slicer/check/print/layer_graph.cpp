@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "slicer/check/print/pole.h"
 #include "slicer/contour/deviation.h"
 
@@ -122,6 +123,17 @@ std::size_t PrintCheck::count(FindingKind kind) const {
 std::size_t PrintCheck::count_minor() const {
   return static_cast<std::size_t>(
       std::ranges::count(findings, true, &Finding::is_minor));
+}
+
+std::string PrintCheck::counts(const std::set<FindingKind>& kinds) const {
+  std::string text;
+  for (const FindingKind kind : kinds) {
+    const std::size_t some = count(kind);
+    if (some == 0) continue;
+    text += text.empty() ? "" : ", ";
+    text += counted(some, name_of(kind));
+  }
+  return text;
 }
 
 double reach_of(double self_supporting, double rise) {

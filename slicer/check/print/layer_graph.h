@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,15 +40,6 @@
 #include "slicer/contour/layer.h"
 
 namespace lamina::slicer {
-
-enum class FindingKind : std::uint8_t {
-  kIsland,
-  kLoosePart,
-  kOverhang,
-  kSuctionCup,
-  kResinTrap
-};
-inline constexpr std::size_t kFindingKinds = 5;
 
 // "island", "loose part", …
 std::string_view name_of(FindingKind kind);
@@ -94,6 +86,9 @@ struct PrintCheck {
   // Of a kind, without minor ones.
   std::size_t count(FindingKind kind) const;
   std::size_t count_minor() const;
+  // "2 islands, 1 resin trap": of these kinds, without minor ones; empty where
+  // there are none.
+  std::string counts(const std::set<FindingKind>& kinds) const;
 };
 
 // How far a layer may stand out over the one below [mm].

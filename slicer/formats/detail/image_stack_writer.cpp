@@ -196,9 +196,9 @@ ImageLayer ImageStackWriter::measure(const Layer& layer) const {
     return measures;
   }
   const Vec2 mm = (measures.high - measures.low) * printer.pixel;
-  throw too_large(printer, printer.right.x != 0
-                               ? Vec3(mm, measures.thickness)
-                               : Vec3(mm.y, mm.x, measures.thickness));
+  throw TooLarge(printer, printer.right.x != 0
+                              ? Vec3(mm, measures.thickness)
+                              : Vec3(mm.y, mm.x, measures.thickness));
 }
 
 void ImageStackWriter::note_thickness(double thickness) {

@@ -43,12 +43,16 @@ TEST(Check, NamesTheLineOfAnIsland) {
       << result.output;
 }
 
-TEST(Check, AllowsWhatItIsTold) {
+TEST(Check, FailsOnWhatItIsTold) {
   const TemporaryFolder folder;
   folder.write("a.scad", kFloating);
-  EXPECT_EQ(run(folder, {"check", "a.scad", "--allow", "islands"}).status, 1);
-  EXPECT_EQ(run(folder, {"check", "a.scad", "--allow", "loose-parts"}).status,
-            0);
+  const auto status = [&](const std::string& kinds) {
+    return run(folder, {"check", "a.scad", "--fail-on", kinds}).status;
+  };
+  EXPECT_EQ(status("loose-parts"), 1);
+  EXPECT_EQ(status("islands,loose-parts"), 1);
+  EXPECT_EQ(status("all"), 1);
+  EXPECT_EQ(status("islands,overhangs"), 0);
 }
 
 TEST(Check, SaysTheSameOfAFileAndOfItsDesign) {

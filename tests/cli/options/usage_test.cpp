@@ -108,7 +108,7 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"a.scad", "--boxes", "global"},
       {"a.scad", "-o", "a.csg", "--printer", "plain"},
       {"a.scad", "-o", "a.csg", "--material", "brass"},
-      {"check", "a.scad", "--allow", "everything"},
+      {"check", "a.scad", "--fail-on", "everything"},
       {"check", "a.scad", "--heights", "0.5"},
       {"a.scad", "--mirror", "x"},
       {"a.scad", "-o", "a.csg", "--cli", "ascii"},
