@@ -5,6 +5,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,10 +14,12 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "base/letter_case.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
+#include "cli/options/user_settings.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/landlock.h"
 #include "cli/process/process_watch.h"
@@ -55,6 +58,9 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
     access = make_file_access(access_limits);
     if (access.is_confined()) {
       name_files_from(access_limits.root, access.canonical(access_limits.root));
+    } else if (command.takes_settings()) {
+      apply_user_settings(
+          read_user_settings(settings_files(first_file(options))), options);
     }
     command.check();
     access.report_to(std::make_shared<RunFiles>());
@@ -87,6 +93,25 @@ void expect_signals(int /*argc*/, char** /*argv*/, char** /*environment*/) {
 [[gnu::section(".preinit_array"),
   gnu::used]] void (*const kFirstOfAll)(int, char**, char**) = expect_signals;
 
+// As openscad's, an output x.png is a picture: of the layers as a solid, which
+// view draws. A folder of images is asked for by its '/', or by a panel.
+bool asks_for_picture(std::span<const char* const> words) {
+  bool is_picture = false;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string_view word = words[i];
+    if (word.starts_with("--printer") || word.starts_with("--export-format")) {
+      return false;
+    }
+    if (!word.starts_with("-o")) continue;
+    const std::string_view output = word.size() > 2        ? word.substr(2)
+                                    : i + 1 < words.size() ? words[i + 1]
+                                                           : "";
+    is_picture = lower_case(output).ends_with(".png") &&
+                 output.find('{') == std::string_view::npos;
+  }
+  return is_picture;
+}
+
 // Returns the exit status.
 int run_program(int argc, char** argv) {
   std::vector<const char*> words(argv, argv + argc);
@@ -101,6 +126,10 @@ int run_program(int argc, char** argv) {
   }
   // A named command's own words begin behind its name.
   const std::size_t skipped = command ? 1 : 0;
+  if (!command && asks_for_picture(words)) {
+    command = make_view_command();
+    words.insert(words.end(), {"--style", "stack"});
+  }
   if (!command) command = make_slice_command();
   ProcessLimits limits;
   FileAccess access;

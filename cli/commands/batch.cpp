@@ -114,6 +114,8 @@ class BatchCommand : public Command {
     options_ = &options;
   }
 
+  bool takes_settings() const override { return true; }
+
   void check() override {
     refuse_if(!table_.request.design.parameter_file.empty(),
               "batch takes values from --table, not from -p and -P");

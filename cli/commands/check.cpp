@@ -69,6 +69,8 @@ class CheckCommand : public Command {
     note_design_option(options, request_);
   }
 
+  bool takes_settings() const override { return true; }
+
   void check() override {
     for (const std::string& file : files_) {
       request_.design.path = file;

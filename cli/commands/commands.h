@@ -24,6 +24,9 @@ class Command {
   // list.
   virtual void add_options(OptionList& options) = 0;
 
+  // Whether the user's settings are defaults of its options.
+  virtual bool takes_settings() const { return false; }
+
   // Called when all words have been read: completes the options and throws
   // RequestError where they do not go together.
   virtual void check() {}
@@ -36,6 +39,7 @@ std::unique_ptr<Command> make_slice_command();
 std::unique_ptr<Command> make_batch_command();
 std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_compare_command();
+std::unique_ptr<Command> make_config_command();
 std::unique_ptr<Command> make_inspect_command();
 std::unique_ptr<Command> make_materials_command();
 std::unique_ptr<Command> make_parts_command();
@@ -52,6 +56,7 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"batch", make_batch_command},
     NamedCommand{"check", make_check_command},
     NamedCommand{"compare", make_compare_command},
+    NamedCommand{"config", make_config_command},
     NamedCommand{"inspect", make_inspect_command},
     NamedCommand{"materials", make_materials_command},
     NamedCommand{"parts", make_parts_command},

@@ -17,6 +17,7 @@
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/run_on_stack.h"
+#include "cli/process/streams.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
@@ -178,7 +179,7 @@ class WorkerPool {
       const std::string& messages = next->second.messages;
       if (!messages.empty()) {
         line_->erase();
-        std::fwrite(messages.data(), 1, messages.size(), stderr);
+        print_messages(messages);
       }
       outcomes_.add(next->second.entry);
     }

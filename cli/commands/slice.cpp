@@ -41,6 +41,7 @@ Usage:
   lamina compare A B [OPTION]...          compare two files or designs
   lamina view FILE -o PICTURE.png         draw a layer file or a design
   lamina parts FILE                       list the parts of a CAD file or a 3MF
+  lamina config [DESIGN]                  show your own defaults of options
   lamina printers                         list the printers that lamina knows
   lamina materials                        list its resins and metals
 
@@ -54,7 +55,8 @@ Output:
                         .cli             Common Layer Interface
                         .svg             a group of polygons per layer, or the
                                          outline of a 2D design
-                        .png             a folder of images
+                        .png             a picture (see 'lamina view'); of
+                                         ring.png/, a folder of images
                         .sl1             images for Prusa's resin printers
                         .goo             images for resin printers of Elegoo
                         .ctb             images for printers with ChiTuBox's
@@ -131,6 +133,8 @@ More of the design:
   --seed N            seed of rands() where the design gives none [0]
   --render            set $preview to false, whatever the output
   --preview           undo --render
+  --backend NAME, --enable FEATURE
+                      change nothing: openscad's scripts give them
 
 More of slicing:
   --max-layer MM      greatest thickness of adaptive layers [4 times --layer]
@@ -279,6 +283,8 @@ class SliceCommand : public Command {
     add_slicing_options(options, request_);
     options.on_read([this, &options] { given_ = options.given(); });
   }
+
+  bool takes_settings() const override { return true; }
 
   void check() override {
     refuse_if(designs_.empty(), "no design was given");

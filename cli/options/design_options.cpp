@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <sstream>
 #include <string_view>
 
@@ -52,6 +53,13 @@ void add_design_options(OptionList& options, compiler::Request& request,
 
   options.begin_group(kDesignGroup);
   options.texts("-D", "NAME=VALUE", [&request](const std::string& definition) {
+    // A name alone would be a syntax error of a text that nobody wrote.
+    const bool is_name = std::ranges::all_of(definition, [](char letter) {
+      return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+             letter == '_' || letter == '$';
+    });
+    require(!is_name, "-D", "NAME=VALUE was expected, such as {}=10, not '{}'",
+            definition.empty() ? "size" : definition, definition);
     request.design.definitions += definition + ";\n";
   });
   const Option set = options.text("-P", "set", [&](const std::string& name) {
@@ -67,6 +75,9 @@ void add_design_options(OptionList& options, compiler::Request& request,
                   request.design.checks_parameter_ranges);
   options.flag("--render", request.design.render);
   options.flag("--preview", request.design.preview);
+  // What openscad's mesh Booleans and unfinished features are, lamina has not.
+  options.text("--backend", "name", [](const std::string& /*name*/) {});
+  options.texts("--enable", "feature", [](const std::string& /*name*/) {});
   options.integer("--seed", request.design.seed);
   options.choice(
       "--language", texts(compiler::kLanguageWords),

@@ -41,6 +41,11 @@ std::string words_of(const CLI::ArgumentMismatch& fault) {
                      words.substr(begin, words.size() - begin - kEnd.size()));
 }
 
+// Options of `lamina view`, which openscad has for its own pictures.
+constexpr std::array<std::string_view, 6> kOfPictures = {
+    "--camera",  "--viewall",    "--autocenter",
+    "--imgsize", "--projection", "--colorscheme"};
+
 // Names that other programs give to options of lamina.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOthers =
     {{{"--layer-height", "--layer"},
@@ -63,6 +68,10 @@ std::string hint_for(const CLI::App& app) {
     if (!word.starts_with('-')) continue;
     const std::string_view name =
         std::string_view(word).substr(0, word.find('='));
+    if (std::ranges::find(kOfPictures, name) != kOfPictures.end()) {
+      return fmt::format("; {} is for pictures: 'lamina view', or -o with .png",
+                         name);
+    }
     for (const auto& [other, ours] : kOthers) {
       // A short one may have its value behind it.
       if (other.starts_with("--") ? name == other : name.starts_with(other)) {
@@ -275,6 +284,18 @@ std::optional<std::string> OptionList::read(int argc, const char* const* argv,
     throw compiler::RequestError(error.what());
   }
   return std::nullopt;
+}
+
+void OptionList::set_default(const std::string& name,
+                             const std::string& value) {
+  CLI::Option* const option = app_->get_option_no_throw(name);
+  if (option == nullptr || option->count() > 0) return;
+  try {
+    option->add_result(value);
+    option->run_callback();
+  } catch (const CLI::ParseError& error) {
+    throw compiler::RequestError(error.what());
+  }
 }
 
 std::vector<GivenOption> OptionList::given() const {

@@ -128,6 +128,10 @@ class OptionList {
                                   std::string_view help,
                                   std::string_view all_help);
 
+  // Gives an option that was not given a value, as the command line would.
+  // Passes over one that this list does not have.
+  void set_default(const std::string& name, const std::string& value);
+
   // Those that were given, in the order of their addition.
   std::vector<GivenOption> given() const;
   std::vector<OptionFacts> facts() const;

@@ -18,6 +18,9 @@ namespace {
 constexpr std::chrono::milliseconds kDelay{500};
 constexpr std::chrono::milliseconds kPeriod{100};
 
+// How much must be done before the rest can be guessed.
+constexpr double kKnownShare = 0.03;
+
 constexpr std::size_t kUsualWidth = 80;
 constexpr std::size_t kNarrowestBar = 10;
 constexpr std::size_t kWidestBar = 30;
@@ -66,7 +69,7 @@ std::string progress_text(const Progress& progress, std::size_t width) {
                                  total, progress.unit);
   const auto done = static_cast<double>(progress.done);
   const auto all = static_cast<double>(progress.total);
-  if (progress.done > 0 && progress.seconds > 0) {
+  if (done >= kKnownShare * all && progress.seconds > 0) {
     const double rate = done / progress.seconds;
     text += fmt::format(", {}/s, {} left", rate_text(rate),
                         duration_text(std::max(0.0, all - done) / rate));

@@ -16,4 +16,8 @@ void print_out(std::string_view text);
 // Writes to standard error, without any memory but the stack.
 void print_error(std::string_view text);
 
+// Writes messages to standard error. On a terminal their first words, such as
+// "error:", have a colour, unless NO_COLOR is set (no-color.org).
+void print_messages(std::string_view text);
+
 }  // namespace lamina::cli

@@ -183,7 +183,7 @@ void Terminal::write(std::string_view words) {
     return;
   }
   progress_.erase();
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  print_messages(text);
 }
 
 }  // namespace lamina::cli

@@ -19,8 +19,14 @@ TEST(ProgressText, TellsWhatIsDoneHowFastAndHowLongItTakesYet) {
             "[=====>               ] 1000 of 4000 layers, 500/s, 6 s left");
   EXPECT_EQ(progress_text({7, 200, "pieces", 2}, 40),
             "  7 of 200 pieces, 3.5/s, 56 s left");
-  EXPECT_EQ(progress_text({1, 61, "layers", 1}, 45),
-            " 1 of 61 layers, 1.0/s, 1 min 00 s left");
+  EXPECT_EQ(progress_text({2, 66, "layers", 2}, 45),
+            " 2 of 66 layers, 1.0/s, 1 min 04 s left");
+}
+
+TEST(ProgressText, PromisesNothingBeforeThreePercent) {
+  EXPECT_EQ(progress_text({29, 1000, "layers", 2}, 25), "  29 of 1000 layers");
+  EXPECT_EQ(progress_text({30, 1000, "layers", 2}, 45),
+            "  30 of 1000 layers, 15/s, 1 min 05 s left");
 }
 
 TEST(ProgressText, NeedsNoMoreThanItsWidth) {

@@ -1,0 +1,152 @@
+#include "cli/options/user_settings.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "base/similar.h"
+#include "compiler/validate.h"
+#include "slicer/formats/output_format.h"
+
+namespace lamina::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// `output` is a format: what is written where -o does not say it.
+constexpr std::string_view kOutput = "output";
+
+constexpr std::array<std::string_view, 8> kNames = {
+    "printer", "material",    "layer",      kOutput,
+    "scale",   "min-feature", "compensate", "fail-on"};
+
+std::string user_folder() {
+  if (const char* folder = std::getenv("XDG_CONFIG_HOME");
+      folder != nullptr && *folder != '\0') {
+    return folder;
+  }
+  const char* const home = std::getenv("HOME");
+  return home == nullptr ? "" : (fs::path(home) / ".config").string();
+}
+
+std::string trimmed(const std::string& text) {
+  constexpr const char* kBlanks = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+// A profile beside the file of settings is meant, wherever lamina runs.
+std::string in_folder_of(const std::string& file, const std::string& value) {
+  const bool is_profile =
+      value.ends_with(".json") && fs::path(value).is_relative();
+  return is_profile ? (fs::path(file).parent_path() / value).string() : value;
+}
+
+// No value where the line is empty or a comment.
+std::optional<UserSetting> read_line(const std::string& file, unsigned number,
+                                     const std::string& line) {
+  const std::string text = trimmed(line.substr(0, line.find('#')));
+  if (text.empty()) return std::nullopt;
+  const std::string place = fmt::format("{}:{}", file, number);
+  const std::size_t equals = text.find('=');
+  const std::string name = trimmed(text.substr(0, equals));
+  const std::string value =
+      equals == std::string::npos ? "" : trimmed(text.substr(equals + 1));
+  const auto* const known = std::ranges::find(kNames, name);
+  if (known == kNames.end()) {
+    const std::string hint = did_you_mean(name, kNames);
+    throw FileError(fmt::format(
+        "{}: there is no setting '{}'; {}", place, name,
+        hint.empty() ? fmt::format("settings are {}", fmt::join(kNames, ", "))
+                     : hint));
+  }
+  if (value.empty()) {
+    throw FileError(fmt::format("{}: '{} = VALUE' was expected", place, name));
+  }
+  return UserSetting{*known, in_folder_of(file, value), place};
+}
+
+// What was given for an option; empty where it was not.
+std::string given_word(const OptionList& options, std::string_view name) {
+  for (const GivenOption& option : options.given()) {
+    if (option.name == name && !option.words.empty()) return option.words[0];
+  }
+  return {};
+}
+
+bool makes_layers(const OptionList& options) {
+  if (!given_word(options, "--dump").empty()) return false;
+  const std::string format = given_word(options, "--export-format");
+  const auto choice = slicer::choose_output_format(
+      format.empty() ? given_word(options, "-o") : format);
+  return !choice.format || slicer::is_of_layers(*choice.format);
+}
+
+}  // namespace
+
+std::vector<std::string> settings_files(const std::string& design) {
+  std::vector<std::string> files;
+  const std::string folder = user_folder();
+  if (!folder.empty()) {
+    files.push_back((fs::path(folder) / "lamina" / "config").string());
+  }
+  if (!design.empty()) {
+    files.push_back((fs::path(design).parent_path() / "lamina.conf").string());
+  }
+  return files;
+}
+
+std::vector<UserSetting> read_user_settings(
+    const std::vector<std::string>& files) {
+  std::vector<UserSetting> settings;
+  for (const std::string& file : files) {
+    const auto text = kAllFiles.read_regular(file);
+    if (!text) continue;
+    std::istringstream lines(*text);
+    unsigned number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (auto setting = read_line(file, ++number, line)) {
+        settings.push_back(std::move(*setting));
+      }
+    }
+  }
+  return settings;
+}
+
+std::string first_file(const OptionList& options) {
+  for (const GivenOption& option : options.given()) {
+    if (!option.name.starts_with('-')) return option.words.front();
+  }
+  return {};
+}
+
+void apply_user_settings(const std::vector<UserSetting>& settings,
+                         OptionList& options) {
+  if (!makes_layers(options)) return;
+  const bool has_output = !given_word(options, "-o").empty();
+  std::map<std::string_view, const UserSetting*> last;
+  for (const UserSetting& setting : settings) last[setting.name] = &setting;
+  for (const auto& [name, setting] : last) {
+    if (name == kOutput && has_output) continue;
+    const std::string option =
+        name == kOutput ? "--export-format" : fmt::format("--{}", name);
+    try {
+      options.set_default(option, setting->value);
+    } catch (const compiler::RequestError& error) {
+      throw FileError(fmt::format("{}: {}", setting->place, error.what()));
+    }
+  }
+}
+
+}  // namespace lamina::cli
