@@ -351,9 +351,10 @@ void Design::write(const std::string& path, const SliceOptions& options,
     state_->access.run_files()->require_unread(
         path, state_->access.look_at(path), state_->access);
     TemporaryFiles temporary_files(state_->access);
-    compiler::LayerOutput output =
-        compiler::LayerOutput::open(request, temporary_files, diagnostics);
     compiler::Report report;
+    report.machine = compiler::choose_machine(request.output, state_->access);
+    compiler::LayerOutput output = compiler::LayerOutput::open(
+        request, report.machine, temporary_files, diagnostics);
     report.slice = state_->slice(request, output.sink(), diagnostics);
     output.finish(diagnostics, report);
   });

@@ -60,7 +60,8 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
       name_files_from(access_limits.root, access.canonical(access_limits.root));
     } else if (command.takes_settings()) {
       apply_user_settings(
-          read_user_settings(settings_files(first_file(options))), options);
+          read_user_settings(settings_files(first_file(options)), access),
+          options);
     }
     command.check();
     access.report_to(std::make_shared<RunFiles>());
@@ -159,6 +160,8 @@ int main(int argc, char** argv) {
   // The commands, on the large stack, catch and show their own faults.
   try {
     return cli::run_program(argc, argv);
+  } catch (const cli::ReaderGone&) {
+    return cli::kFault;
   } catch (const std::bad_alloc&) {
     cli::print_error("lamina: out of memory\n");
   } catch (const std::exception& error) {

@@ -124,7 +124,9 @@ slicer::OrientationChoice choose_orientation(const csg::Scene& scene,
   slicer::OrientationChoice choice = slicer::choose_orientation(
       scene, settings.layer_thickness,
       machine.printer ? machine.printer->build_volume() : Vec3(kAny));
-  for (slicer::Orientation& orientation : choice.all) {
+  // As drawn, and as chosen: each costs a slicing.
+  for (const std::size_t i : {std::size_t{0}, choice.best}) {
+    slicer::Orientation& orientation = choice.all[i];
     if (!orientation.fits || orientation.size.z == 0) continue;
     csg::Scene turned = scene;
     csg::move_scene(turned, slicer::turn_to_axis(orientation.axis), Vec3(0));

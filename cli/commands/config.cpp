@@ -53,7 +53,8 @@ class ConfigCommand : public Command {
       const std::vector<std::string> files =
           settings_files(design_.empty() ? "design.scad" : design_);
       std::string text;
-      for (const UserSetting& setting : read_user_settings(files)) {
+      for (const UserSetting& setting :
+           read_user_settings(files, context.file_access())) {
         text += fmt::format("{:<11} = {:<24}  # {}\n", setting.name,
                             setting.value, display_path(setting.place));
       }

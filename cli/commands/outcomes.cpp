@@ -26,9 +26,8 @@ std::string notes_of(const compiler::Report& report) {
 }
 
 std::string row_of(const Outcome& outcome) {
-  if (!outcome.is_done()) {
-    return fmt::format("error: {}", first_line(outcome.error));
-  }
+  // Its message has come before.
+  if (!outcome.is_done()) return "failed";
   const compiler::Report& report = outcome.report;
   const std::string row = fmt::format(
       "{:>7}  {:>24}  {:>11.3f}  {:>9}  {:>7.3f}  {}", report.slice.layers,
@@ -103,7 +102,7 @@ Outcomes::Entry Outcomes::describe(const Piece& piece,
     entry.machine = outcome.report.machine;
     entry.estimate = outcome.report.estimate;
   }
-  if (count_ <= kMostRows || !outcome.is_done()) {
+  if (count_ <= kMostRows) {
     entry.name = short_name(piece.name);
     entry.row = row_of(outcome);
   }
@@ -124,13 +123,7 @@ void Outcomes::add(const Entry& entry) {
     total_.price += entry.estimate.price;
     total_.seconds += entry.estimate.seconds;
   }
-  if (!entry.row.empty()) {
-    if (rows_.size() < kMostRows) {
-      rows_.emplace_back(entry.name, entry.row);
-    } else {
-      ++untold_;
-    }
-  }
+  if (!entry.row.empty()) rows_.emplace_back(entry.name, entry.row);
   if (csv_) csv_->write(entry.report);
   if (json_) json_->add(entry.report);
 }
@@ -147,7 +140,6 @@ std::string Outcomes::table(double seconds) const {
   for (const auto& [name, row] : rows_) {
     table += fmt::format("{:<{}}  {}\n", name, width, row);
   }
-  if (untold_ > 0) table += fmt::format("... and {} more failed\n", untold_);
   const std::string stood =
       stood_ > 0 ? fmt::format(" ({} of them before)", stood_) : "";
   const std::string total =

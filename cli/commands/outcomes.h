@@ -2,8 +2,8 @@
 // What came of pieces, told twice: in a table that closes the run on the
 // terminal, and in the file of --report.
 //
-// Both are written piece by piece. A table of thousands of rows helps nobody,
-// so beyond kMostRows only the pieces that failed have a row.
+// Both are written piece by piece. A table of thousands of rows helps nobody:
+// beyond kMostRows there is none.
 
 #include <cstdint>
 #include <memory>
@@ -70,7 +70,6 @@ class Outcomes {
   std::unique_ptr<OutputFile> csv_;  // the report; at most one of the two
   std::unique_ptr<JsonList> json_;
   std::vector<std::pair<std::string, std::string>> rows_;  // name, the rest
-  std::uint64_t untold_ = 0;  // failed, and in no row
   std::uint64_t done_ = 0;
   std::uint64_t failed_ = 0;
   std::uint64_t stood_ = 0;

@@ -48,63 +48,51 @@ Usage:
 Output:
   -o FILE             the output, by its extension ('-' for standard output);
                       ring.slc beside ring.scad if not given, or what the
-                      --printer reads (also for a name without extension); for
-                      several designs a folder (out/) or a pattern
-                      (out/{name}.slc)
+                      --printer reads; for several designs a folder (out/) or a
+                      pattern (out/{name}.slc)
                         .slc             layers for wax and resin printers
                         .cli             Common Layer Interface
-                        .svg             a group of polygons per layer, or the
-                                         outline of a 2D design
-                        .png             a picture (see 'lamina view'); of
-                                         ring.png/, a folder of images
+                        .svg             polygons per layer, or a 2D design
+                        .png             a picture (ring.png), or a folder of
+                                         images (ring.png/)
                         .sl1             images for Prusa's resin printers
-                        .goo             images for resin printers of Elegoo
-                        .ctb             images for printers with ChiTuBox's
-                                         firmware, version 2 to 4
+                        .goo .ctb        images for printers of Elegoo, and with
+                                         ChiTuBox's firmware (versions 2 to 4)
                         .zip .nanodlp    images for printers with NanoDLP
                         .slices.3mf      a stack of slices
                         .layers.json     layers as JSON, in full precision
-                        .csg .echo .ast  the CSG tree, the echo output, the
-                                         syntax tree
-                        .param           the parameters, as JSON
+                        .csg .echo .ast .param
+                                         CSG tree, echoes, syntax tree,
+                                         parameters as JSON
   --printer P         the printer, by name ('lamina printers' lists them) or by
-                      profile: does the part fit, how long does it take, which
-                      pixels do images have
+                      profile: fit, printing time, pixels
   --material M        a resin or a metal, by name ('lamina materials' lists
                       them) or by profile: exposure, weight, price
 
 Design:
   -D NAME=VALUE       set a variable of the design; may be repeated
   -p FILE -P SET      set its parameters from a file of the customizer
-  --part NAME         slice one part of a CAD file or a 3MF ('lamina parts FILE'
-                      lists them)
+  --part NAME         slice one part of a CAD file or a 3MF ('lamina parts')
   --strict            treat warnings as errors (default for batches and --root)
   --no-strict         let batches and --root go on after warnings
-  --watch             slice again whenever the design, or a file that it depends
-                      on, changes; Ctrl-C ends
+  --watch             slice again whenever a file changes; Ctrl-C ends
 
 Slicing (lengths in millimetres):
   --layer MM          thickness of a layer [0.05]
   --adaptive CUSP     adaptive layers: steps on the surface no larger than CUSP,
                       thicknesses in multiples of --layer
   --axis AXIS         direction of building: z, x, y, -x, -y, -z, or auto: the
-                      one that fits the printer, with the fewest steps, least
-                      height and overhang [z]
-  --turn DEG          turn the design about that axis, anticlockwise seen from
-                      above [0]
+                      one that fits and has the fewest steps [z]
   --place-on-bed      put the lowest point of the design at height 0
   --scale FACTOR      enlarge the print, by 1.02 where casting shrinks [1]
   --compensate MM     move contours into the solid by half the width of the
                       beam; negative: out of it [0]
 
 Checks:
-  --min-feature MM    report walls and gaps thinner than this, and what makes
-                      them
+  --min-feature MM    report walls and gaps thinner than this
   --fail-on KINDS     write nothing if the print has islands, loose-parts,
-                      overhangs, suction-cups or resin-traps (separated by
-                      commas), or all of them
-  --report FILE       write times, counts, memory, tolerances, thin features and
-                      likely print failures as JSON
+                      overhangs, suction-cups, resin-traps or all of them
+  --report FILE       write counts, times, tolerances and all findings as JSON
 
 Messages:
   -q, --quiet         print errors only
@@ -137,6 +125,8 @@ More of the design:
                       change nothing: openscad's scripts give them
 
 More of slicing:
+  --turn DEG          turn the design about the axis, anticlockwise seen from
+                      above [0]
   --max-layer MM      greatest thickness of adaptive layers [4 times --layer]
   --heights Z1,Z2,... cut at exactly these heights (ascending) instead
   --layers A:B        write layers A to B only, numbered as 'lamina inspect'
@@ -293,6 +283,9 @@ class SliceCommand : public Command {
       refuse_layers(design);
     }
     if (request_.output.dump) return check_dump();
+    // "ring.png/", of a folder of images, is not a folder for several outputs.
+    std::string& output = request_.output.path;
+    if (output.ends_with('/') && !is_folder()) output.pop_back();
     refuse_if(request_.output.path == "-" && output_.export_format.empty(),
               "-o - needs --export-format");
     refuse_if(watches_ && (designs_.size() > 1 || request_.output.path == "-"),

@@ -126,7 +126,7 @@ network.
   -o FILE           the picture or the page
   --style STYLE     sheet: single layers side by side; stack: all layers on top
                     of each other, as a solid [sheet]
-  --layers N        layers on a sheet, filled up to whole rows [20]
+  --sheet N         layers on a sheet, filled up to whole rows [20]
   --layer-number N  this layer alone, counted from 1 at the bottom
   --at Z            the layer at this height alone
   --min-feature MM  of a layer alone or a page: marks walls and gaps thinner
@@ -305,7 +305,7 @@ class ViewCommand : public Command {
         "--style", {"sheet", "stack"}, [this](const std::string& style) {
           options_.style = style == "stack" ? Style::kStack : Style::kSheet;
         });
-    options.whole("--layers", options_.layer_count, 1, 400);
+    options.whole("--sheet", options_.layer_count, 1, 400);
     const Option number = options.layer_number(options_.layer_number);
     options
         .text("--at", "height",

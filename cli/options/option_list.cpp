@@ -69,8 +69,7 @@ std::string hint_for(const CLI::App& app) {
     const std::string_view name =
         std::string_view(word).substr(0, word.find('='));
     if (std::ranges::find(kOfPictures, name) != kOfPictures.end()) {
-      return fmt::format("; {} is for pictures: 'lamina view', or -o with .png",
-                         name);
+      return "; it is for pictures: 'lamina view', or -o with .png";
     }
     for (const auto& [other, ours] : kOthers) {
       // A short one may have its value behind it.

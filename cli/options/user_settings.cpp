@@ -13,7 +13,6 @@
 #include <fmt/ranges.h>
 
 #include "base/diagnostic.h"
-#include "base/file/file_access.h"
 #include "base/similar.h"
 #include "compiler/validate.h"
 #include "slicer/formats/output_format.h"
@@ -108,10 +107,10 @@ std::vector<std::string> settings_files(const std::string& design) {
 }
 
 std::vector<UserSetting> read_user_settings(
-    const std::vector<std::string>& files) {
+    const std::vector<std::string>& files, const FileAccess& access) {
   std::vector<UserSetting> settings;
   for (const std::string& file : files) {
-    const auto text = kAllFiles.read_regular(file);
+    const auto text = access.read_regular(file);
     if (!text) continue;
     std::istringstream lines(*text);
     unsigned number = 0;

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/file/file_access.h"
 #include "cli/options/option_list.h"
 
 namespace lamina::cli {
@@ -32,7 +33,7 @@ std::vector<std::string> settings_files(const std::string& design);
 //
 // throws  FileError where a line is none of them
 std::vector<UserSetting> read_user_settings(
-    const std::vector<std::string>& files);
+    const std::vector<std::string>& files, const FileAccess& access);
 
 // The first word of the command line that is no option and no value of one: the
 // design. Empty where there is none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -76,6 +77,7 @@ void open_missing_streams() {
 
 void print_out(std::string_view text) {
   const int error = write_all(STDOUT_FILENO, without_controls(text));
+  if (error == EPIPE) throw ReaderGone();
   if (error != 0) fail_to_write("-", error);
 }
 

@@ -10,7 +10,11 @@ namespace lamina::cli {
 // messages would go into the output.
 void open_missing_streams();
 
-// Writes to standard output, at once. Throws FileError where that fails.
+// Nobody reads standard output any more, as behind `| head`.
+struct ReaderGone {};
+
+// Writes to standard output, at once. Throws FileError where that fails, but
+// ReaderGone where nobody reads: the run then ends without a word.
 void print_out(std::string_view text);
 
 // Writes to standard error, without any memory but the stack.

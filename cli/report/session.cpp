@@ -14,6 +14,7 @@
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/process/exit_status.h"
+#include "cli/process/streams.h"
 #include "cli/process/process_watch.h"
 
 namespace lamina::cli {
@@ -93,6 +94,8 @@ int run_caught(Terminal& terminal, const std::vector<const Diagnostics*>& shown,
     return work();
   } catch (const InternalError& error) {
     show(fmt::format("internal error, please report: {}", error.what()));
+  } catch (const ReaderGone&) {
+    return kFault;
   } catch (const RequestError& error) {
     terminal.show(error.diagnostic());
     return kUsageFault;

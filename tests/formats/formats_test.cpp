@@ -95,12 +95,18 @@ std::string design_path(const std::string& name) {
 }
 
 // Layers of a design, with all vertices; 0.1 mm unless the options say so.
+// Of images, a folder: without its '/' it would be a picture.
+std::string output_of(const std::string& path) {
+  return path.ends_with(".png") ? path + "/" : path;
+}
+
 std::string slice(const std::string& name, const TemporaryFolder& folder,
                   const std::string& ending,
                   const std::vector<std::string>& options = {}) {
   const std::string path = folder.file("layers" + ending);
   std::vector<std::string> arguments = {
-      LAMINA_PROGRAM, design_path(name), "-o", path, "-q", "--tolerance", "0"};
+      LAMINA_PROGRAM, design_path(name), "-o", output_of(path),
+      "-q",           "--tolerance",     "0"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   if (std::find(options.begin(), options.end(), "--layer") == options.end()) {
     arguments.insert(arguments.end(), {"--layer", "0.1"});
@@ -231,9 +237,10 @@ TEST_P(Bytes, AreTheSameForAnyNumberOfThreads) {
 TEST_P(Bytes, ThatFindNoRoomLeaveNothing) {
   const TemporaryFolder folder;
   const std::string output = folder.file(std::string("a") + GetParam());
-  const ProcessResult result = run_process(
-      {"/bin/bash", "-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"", "-",
-       LAMINA_PROGRAM, design_path("solitaire"), "-o", output, "-q"});
+  const ProcessResult result =
+      run_process({"/bin/bash", "-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"",
+                   "-", LAMINA_PROGRAM, design_path("solitaire"), "-o",
+                   output_of(output), "-q"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.errors,
             "error: Can't write '" + output + "': File too large\n");

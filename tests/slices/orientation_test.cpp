@@ -48,6 +48,20 @@ TEST(ChooseOrientation, APlateLiesFlat) {
   EXPECT_EQ(best_of("cube([30, 2, 20]);"), "y");
 }
 
+TEST(ChooseOrientation, WhatDoesNotFitIsNotChosen) {
+  const std::string plate = "cube([20, 30, 2]);";
+  const auto chosen = [&](Vec3 volume) {
+    const OrientationChoice choice = choice_of(plate, 0.1, volume);
+    return choice.all[choice.best];
+  };
+  EXPECT_EQ(chosen({30, 20, 50}).axis, "z");
+  EXPECT_EQ(chosen({30, 20, 50}).turn, 90);
+  EXPECT_EQ(chosen({25, 25, 50}).axis, "y");
+  EXPECT_EQ(chosen({25, 25, 50}).size.z, 30);
+  EXPECT_EQ(chosen({35, 10, 25}).size.z, 20);
+  EXPECT_EQ(chosen({35, 1, 25}).axis, "z");  // none fits
+}
+
 TEST(ChooseOrientation, HeightDecidesWhereNothingSteps) {
   const OrientationChoice choice = choice_of("cube([20, 30, 2]);");
   // All faces of a plate are flat or upright.

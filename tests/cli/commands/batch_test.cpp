@@ -56,6 +56,50 @@ class Echoes {
   support::ProcessResult result_;
 };
 
+TEST(Batch, ItsReportAddsUp) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "h = 1; cube([10, 10, h]);");
+  folder.write("t.csv", "name,h\na,1\nb,-1\nc,20\n");
+  const auto batch = [&](const std::string& report) {
+    return run(folder,
+               {"batch", "a.scad", "--table", "t.csv", "-o", "{name}.slc",
+                "--layer", "0.5", "--printer", "elegoo-mars-3", "--material",
+                "sterling-silver", "--report", report});
+  };
+  const auto result = batch("r.csv");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "in all: 21.8 g of ")) << result.errors;
+  std::istringstream lines(read_file(folder.file("r.csv")));
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line.substr(0, line.size() - 1) + ",");
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      rows.back().push_back(cell);
+    }
+  }
+  ASSERT_EQ(rows.size(), 4U);
+  const auto cell = [&](std::size_t row, const std::string& column) {
+    const auto at = std::ranges::find(rows[0], column) - rows[0].begin();
+    return rows[row].at(static_cast<std::size_t>(at));
+  };
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  EXPECT_EQ(cell(1, "findings"), "no problems found");
+  EXPECT_EQ(cell(1, "layers"), "2");
+  EXPECT_EQ(cell(2, "layers"), "");
+  EXPECT_NE(cell(2, "error"), "");
+  EXPECT_EQ(cell(3, "error"), "");
+  batch("r.json");
+  const auto json = nlohmann::json::parse(read_file(folder.file("r.json")));
+  for (const auto& [column, member] :
+       {std::pair("grams", "grams"), std::pair("volume_mm3", "volume_mm3"),
+        std::pair("print_seconds", "print_seconds")}) {
+    EXPECT_NEAR(std::stod(cell(1, column)) + std::stod(cell(3, column)),
+                json.at(member).get<double>(), 1e-6)
+        << column;
+  }
+}
+
 // --- Rings ------------------------------------------------------------------
 
 const char* const kBand =
@@ -411,8 +455,8 @@ TEST(Batch, ReportsEveryPieceAsATable) {
   EXPECT_EQ(rows[1].cells.at(3), "40");
   EXPECT_EQ(rows[1].cells.at(6), "2");   // z
   EXPECT_EQ(rows[1].cells.at(7), "8");   // volume
-  EXPECT_EQ(rows[1].cells.at(10), "0");  // warnings
-  EXPECT_TRUE(has(rows[2].cells.at(12), "large, too"));
+  EXPECT_EQ(rows[1].cells.at(12), "0");  // warnings
+  EXPECT_TRUE(has(rows[2].cells.at(14), "large, too"));
 }
 
 TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {
@@ -456,7 +500,7 @@ TEST(SeveralDesigns, AreMadeBesideThemselvesAndOneFaultStopsNoOther) {
   for (const char* const message :
        {"b.scad:1:7: error: ", "none.scad: error: Can't open input file",
         "\nd.scad:1:5: warning: ", "d.scad: error: Current top level object",
-        "2 of 5 designs done, 3 failed"}) {
+        "\nb.scad     failed\n", "2 of 5 designs done, 3 failed"}) {
     EXPECT_TRUE(has(result.errors, message)) << message << result.errors;
   }
   EXPECT_EQ(folder.entry_count(), 6U);

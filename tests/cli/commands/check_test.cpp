@@ -1,6 +1,7 @@
 // lamina check, and what runs say of the print.
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -53,6 +54,20 @@ TEST(Check, FailsOnWhatItIsTold) {
   EXPECT_EQ(status("islands,loose-parts"), 1);
   EXPECT_EQ(status("all"), 1);
   EXPECT_EQ(status("islands,overhangs"), 0);
+}
+
+TEST(Check, KeepsAPrintThatWouldFailFromBeingWritten) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kFloating);
+  const auto result = run(
+      folder, {"a.scad", "-o", "a.slc", "--fail-on", "islands,loose-parts"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors, "error: not written: 1 loose part (--fail-on)\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.slc")));
+  EXPECT_EQ(
+      run(folder, {"a.scad", "-o", "a.slc", "--fail-on", "islands"}).status, 0);
+  EXPECT_EQ(
+      run(folder, {"a.scad", "--layers", "1:3", "--fail-on", "all"}).status, 2);
 }
 
 TEST(Check, SaysTheSameOfAFileAndOfItsDesign) {

@@ -249,7 +249,7 @@ TEST_F(Compare, HelpNamesEveryKindOfFileThatTheErrorNames) {
   for (std::string extension; named >> extension; ++count) {
     EXPECT_TRUE(contains(help, extension)) << extension;
   }
-  EXPECT_EQ(count, 22U) << error;
+  EXPECT_EQ(count, 24U) << error;
 }
 
 TEST_F(Compare, ChecksItsUsage) {

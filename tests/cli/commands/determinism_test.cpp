@@ -121,7 +121,7 @@ const std::vector<std::vector<std::string>> kOutputs = {
     {"a.svg"},
     {"a.slices.3mf"},
     {"a.layers.json"},
-    {"a.png", "--layer", "1"},
+    {"a.png/", "--layer", "1"},
     {"a.sl1", "--layer", "1"},
     {"a.zip", "--layer", "1"},
     {"paper.slc", "--contour", "paper"},

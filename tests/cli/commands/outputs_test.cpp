@@ -344,8 +344,8 @@ TEST_F(Outputs, OfBatchesGetTheirFolders) {
 
 TEST_F(Outputs, LieInNoOther) {
   const std::vector<std::vector<std::string>> cases = {
-      {"cube.scad", "-o", "new.png", "--report", "new.png/00001.png"},
-      {"cube.scad", "-o", "new.png", "-d", "q/../new.png/index.json"},
+      {"cube.scad", "-o", "new.png/", "--report", "new.png/00001.png"},
+      {"cube.scad", "-o", "new.png/", "-d", "q/../new.png/index.json"},
       {"cube.scad", "-o", "new.png/x.slc", "-d", "new.png"},
       {"batch", "cube.scad", "--table", "table.csv", "-o", "out/{name}.png",
        "--ledger", "out/ball.png/00001.png"},
@@ -372,7 +372,7 @@ TEST_F(Outputs, TakeNoNamesOfUnfinishedOnes) {
   folder_.write(".m.slc.lamina-0", "cube(1);");
   fs::create_directories(folder_.file(".m.png.lamina-0/of/mine"));
   EXPECT_EQ(run(folder_, {".m.slc.lamina-0", "-o", "m.slc"}).status, 0);
-  EXPECT_EQ(run(folder_, {"cube.scad", "-o", "m.png", "--layer", "1"}).status,
+  EXPECT_EQ(run(folder_, {"cube.scad", "-o", "m.png/", "--layer", "1"}).status,
             0);
   EXPECT_TRUE(fs::exists(folder_.file(".m.slc.lamina-0")));
   fs::create_directory(folder_.file(".n.slc.lamina-0"));
@@ -466,7 +466,7 @@ TEST_F(Outputs, AreWrittenAgain) {
                             "--report", "new.json"})
                   .status,
               0);
-    EXPECT_EQ(run(folder_, {"cube.scad", "-o", "new.png"}).status, 0);
+    EXPECT_EQ(run(folder_, {"cube.scad", "-o", "new.png/"}).status, 0);
   }
 }
 
@@ -537,7 +537,7 @@ TEST_F(Outputs, TakeNothingOfFilesThatStrangersLeaveWhereAllMay) {
     ASSERT_EQ(::chmod(path.c_str(), 0777), 0);
     ASSERT_EQ(::chown(path.c_str(), kOther, kOther), 0);
   }
-  for (const std::string kind : {".slc", ".png"}) {
+  for (const std::string kind : {".slc", ".png/"}) {
     for (const char* name : {"shared/out", "shared/new"}) {
       ASSERT_EQ(
           run(folder_, {"cube.scad", "-o", name + kind, "--layer", "1"}).status,

@@ -47,6 +47,30 @@ TEST(View, DrawsASheetAndAStackOfAFile) {
   }
 }
 
+// As openscad's -o x.png is.
+TEST(View, DrawsWhatSlicingIsAskedToDraw) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cylinder(r = 5, h = 3, $fn = 60);");
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "a.png", "--imgsize=90,80"}).status,
+            0);
+  EXPECT_EQ(run(folder, {"view", "a.scad", "--style", "stack", "-o", "b.png",
+                         "--imgsize=90,80"})
+                .status,
+            0);
+  EXPECT_EQ(support::read_file(folder.file("a.png")),
+            support::read_file(folder.file("b.png")));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"-o", "c.png/"},
+        {"-o", "d.png", "--printer", "plain"},
+        {"-o", "e", "--export-format", "png"}}) {
+    std::vector<std::string> all = {"a.scad", "--layer", "1"};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(run(folder, all).status, 0);
+    EXPECT_FALSE(
+        support::read_file(folder.file(words[1] + "/00002.png")).empty());
+  }
+}
+
 // The faces of a pyramid have one direction each, however thick the layers are.
 TEST(View, SlopesOfAStackAreSmooth) {
   const TemporaryFolder folder;
@@ -86,7 +110,7 @@ TEST(View, APageTakesNoOptionsOfPictures) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(1);");
   for (const auto& [option, value] :
-       {std::pair("--style", "stack"), std::pair("--layers", "3"),
+       {std::pair("--style", "stack"), std::pair("--sheet", "3"),
         std::pair("--width", "400"), std::pair("--at", "0.5"),
         std::pair("--camera", "1,2,3,4,5,6")}) {
     const auto result =

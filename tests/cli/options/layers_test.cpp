@@ -110,7 +110,7 @@ TEST(Layers, AFolderOfImagesTellsTheThicknessOfEach) {
   const std::vector<std::string> options = {"--adaptive", "0.3", "--layer",
                                             "0.2"};
   const json layers = layers_of(folder, options);
-  std::vector<std::string> words = {"a.scad", "-o", "a.png"};
+  std::vector<std::string> words = {"a.scad", "-o", "a.png/"};
   words.insert(words.end(), options.begin(), options.end());
   ASSERT_EQ(run(folder, words).status, 0);
   const json index =
@@ -193,6 +193,54 @@ TEST(ThinPlaces, AreListedOfOutlinesAndSections) {
               std::string::npos)
         << result.output << result.errors;
   }
+}
+
+TEST(Axis, TurnIsTheDesignsOwnTurn) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([10, 3, 2]);");
+  folder.write("b.scad", "rotate([0, 0, 90]) cube([10, 3, 2]);");
+  folder.write("c.scad",
+               "rotate([0, 0, -30]) rotate([-90, -90, 0]) "
+               "cube([10, 3, 2]);");
+  const auto slices = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"-o", "out.layers.json"});
+    EXPECT_EQ(run(folder, words).status, 0);
+    return support::read_file(folder.file("out.layers.json"));
+  };
+  EXPECT_EQ(slices({"a.scad", "--turn", "90"}), slices({"b.scad"}));
+  EXPECT_EQ(slices({"a.scad", "--axis", "x", "--turn", "-30"}),
+            slices({"c.scad"}));
+  EXPECT_EQ(run(folder, {"a.scad", "--axis", "auto", "--turn", "9"}).status, 2);
+}
+
+TEST(Axis, OptionsThatMakeADesignFitAreNamed) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([80, 140, 20]);");
+  folder.write("b.scad", "cube([20, 150, 20]);");
+  folder.write("c.scad", "cube([130, 20, 140]);");
+  folder.write("d.scad", "cube([200, 150, 150]);");
+  const auto fault = [&](std::vector<std::string> words) {
+    words.insert(words.end(),
+                 {"-o", "a.slc", "--printer", "elegoo-mars-3", "--layer", "1"});
+    const auto result = run(folder, words);
+    EXPECT_EQ(result.status, 1);
+    return result.errors;
+  };
+  const auto follow = [&](std::vector<std::string> words) {
+    words.insert(words.end(),
+                 {"-o", "a.slc", "--printer", "elegoo-mars-3", "--layer", "1"});
+    EXPECT_EQ(run(folder, words).status, 0);
+  };
+  EXPECT_TRUE(has(fault({"a.scad"}), "; with --axis z --turn 90 it fits\n"));
+  follow({"a.scad", "--axis", "z", "--turn", "90"});
+  EXPECT_TRUE(has(fault({"b.scad"}), "; with --axis y it fits\n"));
+  follow({"b.scad", "--axis", "y"});
+  EXPECT_TRUE(
+      has(fault({"c.scad", "--axis", "y"}), "; with --axis z it fits\n"));
+  follow({"c.scad", "--axis", "z"});
+  EXPECT_TRUE(has(fault({"d.scad"}), "; it fits "));
+  follow({"a.scad", "--axis", "auto"});
+  follow({"b.scad", "--axis", "auto"});
 }
 
 TEST(Axis, AutoGivesTheLayersOfTheAxisItNames) {

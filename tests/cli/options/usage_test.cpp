@@ -129,7 +129,7 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"a.scad", "-o", "a.xyz"},
       {"a.scad", "-o", "a"},
       {"a.scad", "-o", "-"},
-      {"a.scad", "--export-format", "gcode"},
+      {"a.scad", "--export-format", "xyz"},
       {"a.slc"},
       {"a.scad", "b.scad", "-o", "c.slc"},
       {"batch", "a.scad", "-o", "{row}.slc"},
@@ -268,6 +268,18 @@ TEST(Usage, NamesAreData) {
     EXPECT_NE(compared.output, "");
     EXPECT_TRUE(is_clean(compared.output)) << compared.output;
   }
+}
+
+// As behind `| head`: the list is longer than a pipe holds.
+TEST(Usage, AReaderThatLeavesEndsAQuestionQuietly) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([1, 1, 30]);");
+  const std::string line = std::string(LAMINA_PROGRAM) +
+                           " inspect a.scad --all --layer 0.001 | head -1; "
+                           "exit ${PIPESTATUS[0]}";
+  const auto result = support::run_process({"bash", "-c", line}, folder.path());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors, "");
 }
 
 }  // namespace

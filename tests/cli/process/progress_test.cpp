@@ -95,6 +95,23 @@ TEST_F(Progress, IsNotForPipesQuietRunsAndShortOnes) {
   EXPECT_EQ(small.output.find("left"), std::string::npos);
 }
 
+TEST_F(Progress, MessagesHaveColoursOnATerminalOnly) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);\nx = y;\ncube(;\n");
+  const std::vector<std::string> plain = command({"a.scad"});
+  std::vector<std::string> words = {"env", "TERM=xterm"};
+  words.insert(words.end(), plain.begin(), plain.end());
+  const auto shown = support::run_on_terminal(words, folder.path());
+  EXPECT_NE(shown.output.find("a.scad:3:6: \x1b[1;31merror:\x1b[m Parser"),
+            std::string::npos)
+      << shown.output;
+  words.insert(words.begin() + 1, "NO_COLOR=1");
+  EXPECT_EQ(support::run_on_terminal(words, folder.path()).output.find('\x1b'),
+            std::string::npos);
+  EXPECT_EQ(support::run_process(plain, folder.path()).errors.find('\x1b'),
+            std::string::npos);
+}
+
 TEST_F(Progress, LeavesNothingBehindAnInterrupt) {
   const TemporaryFolder folder;
   const auto result = support::run_on_terminal(long_run(folder), folder.path(),
