@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <exception>
 #include <new>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,6 +26,19 @@ std::optional<Metrics> measured(const Typeset& typeset,
   }
   if (!typeset.has_font) return std::nullopt;
   return typeset.*metrics;
+}
+
+// What permits the fonts: the system's, and those of OPENSCAD_FONT_PATH, where
+// the portable archive has its own.
+std::string options_for_fonts() {
+  std::string options = " --allow-read /usr/share/fonts";
+  if (const char* more = std::getenv("OPENSCAD_FONT_PATH")) {
+    std::istringstream list(more);
+    for (std::string folder; std::getline(list, folder, ':');) {
+      options += " --allow-read " + folder;
+    }
+  }
+  return options;
 }
 
 }  // namespace
@@ -149,9 +165,8 @@ std::vector<std::vector<Vec2>> Typesetter::outline(
     Diagnostic said{message.severity, range, message.words};
     said.audience = message.audience;
     if (!typeset.has_font && readable_fonts_->is_confined()) {
-      said.hints = hint_of(
-          "the system's fonts may not be read: try --allow-read "
-          "/usr/share/fonts");
+      said.hints = hint_of("the system's fonts may not be read: try" +
+                           options_for_fonts());
     }
     diagnostics.report(std::move(said));
   }

@@ -615,6 +615,20 @@ TEST_F(Root, FontsAreThoseThatMayBeRead) {
             support::read_file(inside("c.slc")));
 }
 
+TEST_F(Root, TheHintNamesAllFoldersOfFonts) {
+  all_.write("root/d.scad", "linear_extrude(1) text(\"Ag\");\n");
+  std::vector<std::string> words =
+      command({"d.scad", "-q", "-o", "o.slc", "--root", "."});
+  words.insert(words.begin(),
+               {"/usr/bin/env", "OPENSCAD_FONT_PATH=/opt/a:/opt/b"});
+  const auto result = support::run_process(words, all_.file("root"));
+  EXPECT_EQ(result.status, 1) << result.errors;
+  EXPECT_NE(result.errors.find("try --allow-read /usr/share/fonts "
+                               "--allow-read /opt/a --allow-read /opt/b\n"),
+            std::string::npos)
+      << result.errors;
+}
+
 // Where HOME is the root, strangers write its rules of fonts.
 TEST_F(Root, RulesOfFontsAtHomeAreNotRead) {
   all_.write("root/d.scad", "linear_extrude(1) text(\"Ag\");\n");
