@@ -37,7 +37,58 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+enum class Letter { kNone, kDigit, kOther };
+
+Letter kind_of(char c) {
+  if (c >= '0' && c <= '9') return Letter::kDigit;
+  const bool is_letter =
+      (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c & 0x80) != 0;
+  return is_letter ? Letter::kOther : Letter::kNone;
+}
+
+// A text without what separates its words, in small letters.
+struct Squeezed {
+  std::string letters;
+  // Where a word begins, a number too.
+  std::vector<bool> is_start;
+
+  explicit Squeezed(std::string_view text) {
+    Letter before = Letter::kNone;
+    for (const char c : text) {
+      const Letter kind = kind_of(c);
+      if (kind != Letter::kNone) {
+        letters += lower_case(c);
+        is_start.push_back(kind != before);
+      }
+      before = kind;
+    }
+  }
+  bool has(std::string_view word) const {
+    std::size_t at = letters.find(word);
+    while (at != std::string::npos && !is_start[at]) {
+      at = letters.find(word, at + 1);
+    }
+    return at != std::string::npos;
+  }
+};
+
 }  // namespace
+
+bool is_same_name(std::string_view a, std::string_view b) {
+  return Squeezed(a).letters == Squeezed(b).letters;
+}
+
+bool has_words(std::string_view text, std::string_view query) {
+  if (Squeezed(query).letters.size() < 2) return false;
+  const Squeezed squeezed(text);
+  while (!query.empty()) {
+    const std::size_t size = static_cast<std::size_t>(
+        std::ranges::find(query, Letter::kNone, kind_of) - query.begin());
+    if (!squeezed.has(Squeezed(query.substr(0, size)).letters)) return false;
+    query.remove_prefix(std::min(size + 1, query.size()));
+  }
+  return true;
+}
 
 std::string_view most_similar(std::string_view name,
                               std::span<const std::string_view> candidates) {

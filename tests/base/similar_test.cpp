@@ -24,6 +24,24 @@ TEST(Similar, IsOneLetterInThreeAtMost) {
   EXPECT_EQ(most_similar("b", letters), "");
 }
 
+TEST(SameNames, DifferInCaseAndInWhatStandsBetweenWords) {
+  EXPECT_TRUE(is_same_name("elegoo-mars-3", "Elegoo Mars 3"));
+  EXPECT_FALSE(is_same_name("elegoo-mars-3", "elegoo-mars-30"));
+}
+
+TEST(HasWords, TakesPartsThatBeginWords) {
+  const std::string_view text = "elegoo-saturn-4-ultra Elegoo Saturn 4 Ultra";
+  for (const std::string_view query :
+       {"saturn", "SATURN 4", "saturn4ultra", "4 saturn", "ele ult", "4u"}) {
+    EXPECT_TRUE(has_words(text, query)) << query;
+  }
+  for (const std::string_view query :
+       {"aturn", "saturn 3", "ultra saturns", "4", "", " ", "turn4"}) {
+    EXPECT_FALSE(has_words(text, query)) << query;
+  }
+  EXPECT_TRUE(has_words("gold-18k", "18 k"));
+}
+
 // All of 20,000 among 20,000 would take minutes.
 TEST(Guesses, OfManyNamesAreForTheFirst) {
   std::vector<std::string> texts;

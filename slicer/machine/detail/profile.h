@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -30,14 +31,19 @@ void require_members(const nlohmann::json& json,
 std::string read_line(const nlohmann::json& json, const char* member,
                       std::optional<std::string> otherwise = {});
 
+// A list of such texts; empty where it is absent.
+std::vector<std::string> read_lines(const nlohmann::json& json,
+                                    const char* member);
+
 // A number from `least` to `greatest`; `otherwise` where it is absent. Throws
 // std::runtime_error.
 double read_number(const nlohmann::json& json, const char* member, double least,
                    double greatest, double otherwise);
 
-// The profile that lamina knows by that name, or else the text of a file.
-// Throws as find_printer() does; so do faults that `read` throws as
-// std::runtime_error or nlohmann::json::exception.
+// Reads the profile that lamina knows by that name or title, or else the text
+// of a file that ends in .json, or else the one known profile whose name or
+// title has the words. Throws as find_printer() does; so do faults that `read`
+// throws as std::runtime_error or nlohmann::json::exception.
 //
 // kind  "printer" or "material", for messages
 void read_profile(std::string_view kind, const std::string& name_or_file,
