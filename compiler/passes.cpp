@@ -276,7 +276,7 @@ void judge(const csg::Lowered& lowered, const Request& request,
 
 slicer::Settings settings_of(const Request& request, const Machine& machine) {
   slicer::Settings settings = request.job;
-  if (machine.printer) {
+  if (machine.printer && machine.printer->has_panel()) {
     const Vec2 pixel = machine.printer->pixel;
     settings.print.least_area = pixel.x * pixel.y;
     settings.print.least_volume =

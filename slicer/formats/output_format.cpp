@@ -50,12 +50,13 @@ constexpr std::array<Refused, 5> kRefused = {{
 }};
 
 // Formats of resin printers that UVtools converts archives to.
-constexpr std::array<std::string_view, 28> kConverted = {
-    "encrypted.ctb", "gktwo.ctb", "cbddlp", "photon", "photons", "pws",
-    "pw0",           "pwx",       "pwmo",   "pwmx",   "pwms",    "pwma",
-    "pwmb",          "pmx2",      "pmsq",   "pm3",    "pm3m",    "pm3n",
-    "pm4n",          "pm5",       "pm5s",   "pm7",    "pwsz",    "cxdlp",
-    "cxdlpv4",       "fdg",       "prz",    "xml.cws"};
+constexpr std::array<std::string_view, 36> kConverted = {
+    "encrypted.ctb", "gktwo.ctb", "cbddlp", "photon",  "photons", "pws",
+    "pw0",           "pwx",       "pwmo",   "pwmx",    "pwms",    "pwma",
+    "pwmb",          "pmx2",      "pmsq",   "pm3",     "pm3m",    "pm3n",
+    "pm4n",          "pm5",       "pm5s",   "pm7",     "pwsz",    "cxdlp",
+    "cxdlpv4",       "fdg",       "prz",    "xml.cws", "pm3r",    "px6s",
+    "m5sp",          "pm7m",      "pm4u",   "dlp",     "dl2p",    "phz"};
 
 constexpr std::string_view kConversion =
     "write an .sl1 file with --printer and convert it with UVtools "

@@ -86,23 +86,57 @@ unsigned read_pixels(const json& number) {
   return static_cast<unsigned>(pixels);
 }
 
-Printer read_printer(const json& object) {
-  detail::require_members(
-      object,
-      {"name", "title", "source", "pixels", "pixel_mm", "right", "up",
-       "height_mm", "move_s", "lift_mm", "lift_mm_per_min",
-       "retract_mm_per_min", "wait_before_lift_s", "wait_after_retract_s",
-       "nanodlp_pixels", "reads", "ctb_version"});
-  Printer printer;
-  printer.name = detail::read_line(object, "name");
-  printer.title = detail::read_line(object, "title", printer.name);
-  printer.source = detail::read_line(object, "source", "");
+Vec2 read_plate(const json& object) {
+  if (object.contains("pixels")) {
+    throw std::runtime_error("plate_mm is for printers without pixels");
+  }
+  const Vec2 plate(object.at("plate_mm").at(0).get<double>(),
+                   object.at("plate_mm").at(1).get<double>());
+  const auto is_length = [](double mm) {
+    return mm > 0 && mm <= kGreatestHeight;
+  };
+  if (!is_length(plate.x) || !is_length(plate.y)) {
+    throw std::runtime_error("plate_mm must be positive");
+  }
+  return plate;
+}
+
+void read_panel(const json& object, Printer& printer) {
   printer.width = read_pixels(object.at("pixels").at(0));
   printer.height = read_pixels(object.at("pixels").at(1));
   printer.pixel = {object.at("pixel_mm").at(0).get<double>(),
                    object.at("pixel_mm").at(1).get<double>()};
   printer.right = read_direction(object.at("right"));
   printer.up = read_direction(object.at("up"));
+  if (object.contains("nanodlp_pixels")) {
+    printer.nanodlp_layout =
+        read_layout(object.at("nanodlp_pixels"), printer.width);
+  }
+  const auto is_size = [](double mm) { return mm > 0 && mm <= kGreatestPixel; };
+  if (!is_size(printer.pixel.x) || !is_size(printer.pixel.y)) {
+    throw std::runtime_error("pixel_mm must be positive");
+  }
+  if (printer.right.x * printer.up.x + printer.right.y * printer.up.y != 0) {
+    throw std::runtime_error("right and up are one direction");
+  }
+}
+
+Printer read_printer(const json& object) {
+  detail::require_members(
+      object,
+      {"name", "title", "source", "pixels", "pixel_mm", "right", "up",
+       "plate_mm", "height_mm", "move_s", "lift_mm", "lift_mm_per_min",
+       "retract_mm_per_min", "wait_before_lift_s", "wait_after_retract_s",
+       "nanodlp_pixels", "reads", "ctb_version"});
+  Printer printer;
+  printer.name = detail::read_line(object, "name");
+  printer.title = detail::read_line(object, "title", printer.name);
+  printer.source = detail::read_line(object, "source", "");
+  if (object.contains("plate_mm")) {
+    printer.plate = read_plate(object);
+  } else {
+    read_panel(object, printer);
+  }
   printer.build_height =
       detail::read_number(object, "height_mm", 0.001, kGreatestHeight, 0);
   printer.move_seconds =
@@ -115,17 +149,6 @@ Printer read_printer(const json& object) {
   }
   printer.ctb_version = static_cast<unsigned>(
       detail::read_number(object, "ctb_version", 2, 4, 3));
-  if (object.contains("nanodlp_pixels")) {
-    printer.nanodlp_layout =
-        read_layout(object.at("nanodlp_pixels"), printer.width);
-  }
-  const auto is_size = [](double mm) { return mm > 0 && mm <= kGreatestPixel; };
-  if (!is_size(printer.pixel.x) || !is_size(printer.pixel.y)) {
-    throw std::runtime_error("pixel_mm must be positive");
-  }
-  if (printer.right.x * printer.up.x + printer.right.y * printer.up.y != 0) {
-    throw std::runtime_error("right and up are one direction");
-  }
   return printer;
 }
 
@@ -167,9 +190,10 @@ std::string larger_printers(Vec3 size) {
 }  // namespace
 
 Vec3 Printer::build_volume() const {
-  const Vec2 panel = Vec2(width, height) * pixel;
   const double z =
       build_height > 0 ? build_height : std::numeric_limits<double>::infinity();
+  if (!has_panel()) return {plate, z};
+  const Vec2 panel = Vec2(width, height) * pixel;
   return right.x != 0 ? Vec3(panel.x, panel.y, z) : Vec3(panel.y, panel.x, z);
 }
 

@@ -32,13 +32,16 @@ struct Printer {
   std::string name;
   std::string title;   // as its manufacturer writes it
   std::string source;  // of these figures
-  unsigned width = 0;  // of the panel [pixels]
+  // Of the panel [pixels]; 0: it has none, and takes layers of contours.
+  unsigned width = 0;
   unsigned height = 0;
   Vec2 pixel = Vec2(0);  // its size to the right and upwards [mm]
   // The directions of the design that run to the right and upwards in the
   // image, ±x and ±y. Panels seen from below show a mirrored part.
   Vec2 right = Vec2(1, 0);
   Vec2 up = Vec2(0, 1);
+  // What one without a panel builds, along the axes of the design [mm].
+  Vec2 plate = Vec2(0);
   double build_height = 0;  // [mm]; 0: not known
   // What it takes to lift the part from the film and to come back, for each
   // layer [s]; 0: not known.
@@ -56,6 +59,8 @@ struct Printer {
   // How NanoDLP hands pixels to its display.
   PixelLayout nanodlp_layout = PixelLayout::kGrey;
 
+  bool has_panel() const { return width > 0; }
+
   // Whether the panel shows a mirrored part.
   bool is_mirrored() const { return right.x * up.y - right.y * up.x < 0; }
 
@@ -67,11 +72,12 @@ struct Printer {
 // The printers that lamina knows, in alphabetical order of their names.
 std::vector<Printer> known_printers();
 
-// Returns the printer that lamina knows by that name, or else that of a
-// profile: a JSON file (docs/formats.md).
+// Returns the printer that lamina knows by that name, its title, or a part of
+// them that no other has ("mars 3"), or else that of a profile: a JSON file
+// (docs/formats.md).
 //
-// throws  FileError where there is no such printer, or the file is not a
-// profile;
+// throws  FileError where there is no such printer or there are several, or the
+//         file is not a profile;
 //         AccessError where the file may not be read
 Printer find_printer(const std::string& name_or_file,
                      const FileAccess& access = kAllFiles);
