@@ -41,7 +41,7 @@ std::vector<std::string> files_read(const Compilation& c) {
   const Request& request = c.request;
   for (const std::string& file :
        {request.design.parameter_file, request.output.printer,
-        request.output.material}) {
+        request.output.material, request.output.metal}) {
     if (!file.empty()) files.push_back(file);
   }
   return files;

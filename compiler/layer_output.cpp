@@ -18,10 +18,13 @@ std::optional<slicer::Deviation> promised_deviation(const Request& request) {
 
 }  // namespace
 
-LayerOutput::LayerOutput(const Machine& machine,
+LayerOutput::LayerOutput(const Machine& machine, double layer_thickness,
                          std::optional<slicer::Deviation> deviation,
                          std::unique_ptr<slicer::LayerWriter> writer)
-    : machine_(machine), deviation_(deviation), writer_(std::move(writer)) {
+    : machine_(machine),
+      layer_thickness_(layer_thickness),
+      deviation_(deviation),
+      writer_(std::move(writer)) {
   if (machine_.printer) build_volume_.emplace(*machine_.printer, *writer_);
 }
 
@@ -38,21 +41,21 @@ LayerOutput LayerOutput::open(const Request& request, const Machine& machine,
   options.format = request.output.format;
   if (request.output.cli_encoding) options.cli = *request.output.cli_encoding;
   if (machine.printer) options.printer = *machine.printer;
-  options.exposure = slicer::exposure_of(machine.material);
+  options.exposure =
+      slicer::choose_exposure(machine, request.job.layer_thickness).exposure;
   if (machine.material) options.material = machine.material->title;
   if (deviation) options.deviation = deviation->from_section();
   auto writer =
       slicer::make_layer_writer(options, request.output.path, temporary_files);
-  return {machine, deviation, std::move(writer)};
+  return {machine, request.job.layer_thickness, deviation, std::move(writer)};
 }
 
 void LayerOutput::finish(Diagnostics& diagnostics, Report& report) {
   writer_->finish(diagnostics);
   if (deviation_) deviation_->rounding = writer_->greatest_rounding();
   report.deviation = deviation_;
-  report.estimate =
-      slicer::estimate_print(machine_.printer, machine_.material,
-                             report.slice.layers, report.slice.volume);
+  report.estimate = slicer::estimate_print(
+      machine_, layer_thickness_, report.slice.layers, report.slice.volume);
   report.snapped_layers = writer_->snapped_layers();
   writer_->commit();
   report.output_bytes = writer_->size();

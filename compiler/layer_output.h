@@ -33,11 +33,12 @@ class LayerOutput {
   void finish(Diagnostics& diagnostics, Report& report);
 
  private:
-  LayerOutput(const Machine& machine,
+  LayerOutput(const Machine& machine, double layer_thickness,
               std::optional<slicer::Deviation> deviation,
               std::unique_ptr<slicer::LayerWriter> writer);
 
   const Machine& machine_;
+  const double layer_thickness_;  // [mm]
   std::optional<slicer::Deviation> deviation_;
   std::unique_ptr<slicer::LayerWriter> writer_;
   std::optional<slicer::BuildVolumeSink> build_volume_;  // of a printer

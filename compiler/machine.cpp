@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
@@ -25,6 +26,23 @@ std::string usual_printer(OutputFormat format) {
 // Formats that printers of one kind read, and no programs that convert.
 bool is_for_printers(OutputFormat format) {
   return format == OutputFormat::kGoo || format == OutputFormat::kCtb;
+}
+
+// The metal of --metal.
+slicer::Material find_metal(const std::string& name, const FileAccess& access) {
+  slicer::Material metal = slicer::find_material(name, access);
+  if (metal.is_metal()) return metal;
+  throw FileError(fmt::format("Can't use metal '{}': {} is not a metal", name,
+                              metal.title));
+}
+
+// Prices of litres and kilograms are those of the resin, of grams and ounces
+// those of the metal, as they are sold; of one material alone, all are its.
+void add_price(const slicer::Price& price, Machine& machine) {
+  const bool is_for_metal =
+      machine.metal &&
+      (!machine.material || price.unit == "g" || price.unit == "oz");
+  (is_for_metal ? machine.metal : machine.material)->price = price;
 }
 
 }  // namespace
@@ -65,12 +83,26 @@ Machine choose_machine(const OutputRequest& request, const FileAccess& access) {
     if (!complaint.empty() && is_for_printers(request.format)) {
       throw FileError(complaint);
     }
+    if (!printer.has_panel() && slicer::is_of_images(request.format)) {
+      throw FileError(
+          fmt::format("{} has no panel to show images on", printer.title));
+    }
     if (request.mirrors_x) printer.right = -printer.right;
     if (request.mirrors_y) printer.up = -printer.up;
   }
   if (!request.material.empty()) {
-    machine.material = slicer::find_material(request.material, access);
+    slicer::Material material = slicer::find_material(request.material, access);
+    (material.is_metal() ? machine.metal : machine.material) =
+        std::move(material);
   }
+  if (!request.metal.empty()) {
+    if (machine.metal) {
+      throw FileError(fmt::format("'{}' and '{}' are both metals",
+                                  request.material, request.metal));
+    }
+    machine.metal = find_metal(request.metal, access);
+  }
+  for (const slicer::Price& price : request.prices) add_price(price, machine);
   return machine;
 }
 

@@ -1,23 +1,19 @@
 #pragma once
 // What the print is made with.
 
-#include <optional>
 #include <string>
 
 #include "base/file/file_access.h"
 #include "compiler/request.h"
-#include "slicer/machine/material.h"
-#include "slicer/machine/printer.h"
+#include "slicer/machine/estimate.h"
 
 namespace lamina::compiler {
 
-struct Machine {
-  std::optional<slicer::Printer> printer;
-  std::optional<slicer::Material> material;
-};
+using slicer::Machine;
 
-// The profiles that are asked for; of images else the format's usual printer.
-// Throws FileError where a profile cannot be opened.
+// The profiles that are asked for, with the prices that are given; of images
+// else the format's usual printer. Throws FileError where a profile cannot be
+// opened, and where a material is not of the kind that is asked for.
 Machine choose_machine(const OutputRequest& request, const FileAccess& access);
 
 // The options with which a part that is too large for the printer would fit,

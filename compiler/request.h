@@ -5,11 +5,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "csg/eval/evaluator.h"
 #include "parser/customizer/parameter_set.h"
 #include "slicer/dump/layer_dump.h"
 #include "slicer/formats/output_format.h"
+#include "slicer/machine/material.h"
 #include "slicer/slice/settings.h"
 
 namespace lamina::compiler {
@@ -67,9 +69,11 @@ struct OutputRequest {
   std::optional<double> dump_height;
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
   std::optional<slicer::CliEncoding> cli_encoding;
-  std::string printer;     // name or profile; empty: of images the format's
-  std::string material;    // name or profile; empty: none
-  bool mirrors_x = false;  // the image
+  std::string printer;   // name or profile; empty: of images the format's
+  std::string material;  // name or profile; empty: none
+  std::string metal;     // that is cast from it, likewise
+  std::vector<slicer::Price> prices;  // of these two
+  bool mirrors_x = false;             // the image
   bool mirrors_y = false;
   std::string dependencies;  // path of the rule for make (-d); empty: none
   // A warning or an error ends the run with no output, when its stage is done.

@@ -139,6 +139,10 @@ void refuse_misfits(const Request& request) {
   refuse_if(!has_layers && job.min_feature > 0, "--min-feature needs layers");
   refuse_if(!has_layers && !output.printer.empty(), "--printer needs layers");
   refuse_if(!has_layers && !output.material.empty(), "--material needs layers");
+  refuse_if(!has_layers && !output.metal.empty(), "--metal needs layers");
+  refuse_if(
+      !output.prices.empty() && output.material.empty() && output.metal.empty(),
+      "--price needs --material or --metal");
   refuse_if(
       !slicer::is_of_images(format) && (output.mirrors_x || output.mirrors_y),
       "--mirror needs images: .png, .sl1, .zip, .goo or .ctb");

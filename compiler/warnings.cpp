@@ -110,25 +110,25 @@ void warn_of_archive(const Machine& machine, const Request& request,
                       machine.printer->name));
 }
 
-// Exposures hold for a printer and a thickness.
+// Exposures hold for a resin, a printer and a thickness.
 void warn_of_exposure(const Machine& machine, const Request& request,
                       Diagnostics& diagnostics) {
-  const auto& printer = machine.printer;
-  const auto& material = machine.material;
-  if (!printer || !material || !slicer::is_of_images(request.output.format))
-    return;
-  const auto warn = [&](const std::string& what) {
+  if (!machine.printer || !slicer::is_of_images(request.output.format)) return;
+  const slicer::ChosenExposure chosen =
+      slicer::choose_exposure(machine, request.job.layer_thickness);
+  if (!chosen.holds_for.empty()) {
     diagnostics.own_warning(
         {}, fmt::format("the exposure of {} is for {}; a profile of your own "
                         "can have yours",
-                        material->title, what));
-  };
-  if (material->exposure == 0) return;
-  if (!material->printer.empty() && material->printer != printer->name) {
-    warn(material->printer);
-  } else if (material->layer_thickness > 0 &&
-             material->layer_thickness != request.job.layer_thickness) {
-    warn(fmt::format("layers of {:g} mm", material->layer_thickness));
+                        machine.material->title, chosen.holds_for));
+  } else if (chosen.is_assumed && request.output.format != OutputFormat::kPng) {
+    diagnostics.own_remark(
+        {},
+        fmt::format("no exposure is known for {}: {:g} s a layer and {:g} s "
+                    "for the first are assumed",
+                    machine.material ? machine.material->title
+                                     : "a resin that --material names",
+                    chosen.exposure.layer, chosen.exposure.first));
   }
 }
 

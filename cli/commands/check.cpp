@@ -44,7 +44,8 @@ the printer (0.001 mm² where none is named) is only counted. The exit status is
 1 if something would go wrong, or with --fail-on, if that would.
 
   --printer P         the printer, as for slicing
-  --material M        a resin or a metal, as for slicing
+  --material M, --metal M, --price PRICES
+                      what it is made of, as for slicing
   --min-feature MM    report walls and gaps thinner than this
   --fail-on KINDS     of islands, loose-parts, overhangs, suction-cups and
                       resin-traps, separated by commas, or all [all]
@@ -151,9 +152,8 @@ class CheckCommand : public Command {
       text += fit_line(*machine.printer, request, found.box.size(), is_design);
     }
     const std::string estimate = slicer::estimate_text(
-        machine.printer, machine.material,
-        slicer::estimate_print(machine.printer, machine.material,
-                               found.layers.size(), found.volume));
+        machine, slicer::estimate_print(machine, request.job.layer_thickness,
+                                        found.layers.size(), found.volume));
     if (!estimate.empty()) text += estimate + '\n';
     text += finding_table(*found.print,
                           compiler::texts_of(inspection.lines.findings));

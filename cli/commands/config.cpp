@@ -29,9 +29,10 @@ lines such as
     output  = goo           # the format, where -o does not say it
 
 in ~/.config/lamina/config, and in lamina.conf beside a design for the designs
-of that folder. Settings are: printer, material, layer, output, scale,
-min-feature, compensate and fail-on. The command line counts before lamina.conf,
-and that before ~/.config/lamina/config. Under --root neither is read.
+of that folder. Settings are: printer, material, metal, price, layer, output,
+scale, min-feature, compensate and fail-on. The command line counts before
+lamina.conf, and that before ~/.config/lamina/config. Under --root neither is
+read.
 
   -h, --help  print this help
 )";

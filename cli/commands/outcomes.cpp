@@ -32,15 +32,16 @@ std::string row_of(const Outcome& outcome) {
   const std::string row = fmt::format(
       "{:>7}  {:>24}  {:>11.3f}  {:>9}  {:>7.3f}  {}", report.slice.layers,
       size_text(report.slice.box.size()), report.slice.volume,
-      report.estimate.grams > 0 ? fmt::format("{:.3f}", report.estimate.grams)
-                                : "-",
+      report.estimate.weight() > 0
+          ? fmt::format("{:.3f}", report.estimate.weight())
+          : "-",
       report.wall_seconds, notes_of(report));
   return row.substr(0, row.find_last_not_of(' ') + 1);
 }
 
 constexpr std::string_view kCsvHeader =
     "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,price,"
-    "print_seconds,seconds,warnings,findings,error\r\n";
+    "metal_grams,metal_price,print_seconds,seconds,warnings,findings,error\r\n";
 
 // Empty where it is not known.
 std::string figure(double value) {
@@ -49,17 +50,18 @@ std::string figure(double value) {
 
 std::string csv_of(const Piece& piece, const Outcome& outcome) {
   const std::string line = piece.line > 0 ? fmt::format("{}", piece.line) : "";
-  std::string figures = ",,,,,,,,,,";
+  std::string figures = ",,,,,,,,,,,,";
   if (outcome.is_done()) {
     const compiler::Report& report = outcome.report;
     const slicer::PrintEstimate& estimate = report.estimate;
     const Vec3 size = report.slice.box.size();
     figures = fmt::format(
-        "{},{},{},{},{},{},{},{},{}", report.slice.layers,
+        "{},{},{},{},{},{},{},{},{},{},{}", report.slice.layers,
         report.slice.box.is_empty()
             ? ",,"
             : fmt::format("{:.6g},{:.6g},{:.6g}", size.x, size.y, size.z),
         report.slice.volume, figure(estimate.grams), figure(estimate.price),
+        figure(estimate.metal_grams), figure(estimate.metal_price),
         figure(estimate.seconds), report.wall_seconds, report.warnings,
         csv_words(report.slice.print ? finding_counts(*report.slice.print)
                                      : ""));
@@ -118,10 +120,7 @@ void Outcomes::add(const Entry& entry) {
   if (entry.status == Status::kStood) return;
   if (entry.status == Status::kDone) {
     machine_ = entry.machine;
-    total_.volume += entry.estimate.volume;
-    total_.grams += entry.estimate.grams;
-    total_.price += entry.estimate.price;
-    total_.seconds += entry.estimate.seconds;
+    total_ = total_ + entry.estimate;
   }
   if (!entry.row.empty()) rows_.emplace_back(entry.name, entry.row);
   if (csv_) csv_->write(entry.report);
@@ -142,8 +141,7 @@ std::string Outcomes::table(double seconds) const {
   }
   const std::string stood =
       stood_ > 0 ? fmt::format(" ({} of them before)", stood_) : "";
-  const std::string total =
-      slicer::estimate_text(machine_.printer, machine_.material, total_);
+  const std::string total = slicer::estimate_text(machine_, total_);
   if (!total.empty()) {
     table +=
         fmt::format("in all{}: {}\n", stood_ > 0 ? " of this run" : "", total);

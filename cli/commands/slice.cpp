@@ -64,10 +64,12 @@ Output:
                         .csg .echo .ast .param
                                          CSG tree, echoes, syntax tree,
                                          parameters as JSON
-  --printer P         the printer, by name ('lamina printers' lists them) or by
-                      profile: fit, printing time, pixels
-  --material M        a resin or a metal, by name ('lamina materials' lists
-                      them) or by profile: exposure, weight, price
+  --printer P         the printer, by name or a part of it ('lamina printers'),
+                      or by profile: fit, printing time, pixels
+  --material M        the resin or wax, likewise ('lamina materials'): exposure,
+                      weight, price
+  --metal M           the metal that is cast from it: weight, price
+  --price PRICES      of these: 60/l, 55/kg, 62.5/g, '1900 EUR/oz' (troy ounce)
 
 Design:
   -D NAME=VALUE       set a variable of the design; may be repeated
@@ -323,15 +325,13 @@ class SliceCommand : public Command {
             }};
   }
 
-  // What the printer reads, where neither name nor option says it.
+  // What a known printer reads, where neither name nor option says it.
   std::string extension() const {
     if (!output_.export_format.empty()) return output_.export_format;
-    for (const slicer::Printer& printer : slicer::known_printers()) {
-      if (printer.name == request_.output.printer) {
-        return slicer::usual_extension(printer.title, printer.reads);
-      }
-    }
-    return "slc";
+    const std::string& name = request_.output.printer;
+    if (name.empty() || name.ends_with(".json")) return "slc";
+    const slicer::Printer printer = slicer::find_printer(name);
+    return slicer::usual_extension(printer.title, printer.reads);
   }
 
   // The path with an extension of what the printer reads, where it has none.

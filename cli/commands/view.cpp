@@ -132,8 +132,8 @@ network.
   --min-feature MM  of a layer alone or a page: marks walls and gaps thinner
                     than this
   --width PIXELS    width of a sheet [1600] or of a layer alone [1200]
-  --printer NAME, --material NAME
-                    a page then says what the print takes
+  --printer P, --material M, --metal M, --price PRICES
+                    a page then says what the print takes, as for slicing
 
 Of a stack, as in openscad (any of these asks for --style stack):
   --camera NUMBERS  translation, rotation and distance: x,y,z,rx,ry,rz,d, or
@@ -213,12 +213,12 @@ slicer::Image draw_picture(const std::vector<slicer::Layer>& layers,
 // What the print takes, in words; empty where nothing is asked for.
 std::string estimate_of(const compiler::Compilation& compilation,
                         const slicer::Inspection& found) {
-  const auto [printer, material] = compiler::choose_machine(
-      compilation.request.output, compilation.file_access());
+  const compiler::Request& request = compilation.request;
+  const slicer::Machine machine =
+      compiler::choose_machine(request.output, compilation.file_access());
   return slicer::estimate_text(
-      printer, material,
-      slicer::estimate_print(printer, material, found.layers.size(),
-                             found.volume));
+      machine, slicer::estimate_print(machine, request.job.layer_thickness,
+                                      found.layers.size(), found.volume));
 }
 
 // "ring.scad:12:3" as the page shows it, which goes to other machines: from the
@@ -340,10 +340,11 @@ class ViewCommand : public Command {
               "a stack needs --imgsize W,H, not --width");
     refuse_if(is_page(request_.output.path) && options_.are_for_pictures(),
               "of view's own options a page takes --min-feature only");
-    refuse_if(
-        !is_page(request_.output.path) && !(request_.output.printer.empty() &&
-                                            request_.output.material.empty()),
-        "--printer and --material need .html");
+    const compiler::OutputRequest& output = request_.output;
+    refuse_if(!is_page(output.path) &&
+                  !(output.printer.empty() && output.material.empty() &&
+                    output.metal.empty()),
+              "--printer, --material and --metal need .html");
     // The page shows what made what is found in a design.
     if (is_page(request_.output.path)) {
       request_.job.min_feature = options_.layer.min_feature;

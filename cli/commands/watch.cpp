@@ -132,7 +132,8 @@ std::set<std::string> given_files(const compiler::Request& request) {
   if (!request.design.parameter_file.empty())
     files.insert(request.design.parameter_file);
   for (const std::string& profile :
-       {request.output.printer, request.output.material}) {
+       {request.output.printer, request.output.material,
+        request.output.metal}) {
     if (fs::is_regular_file(profile)) files.insert(profile);
   }
   return files;

@@ -8,6 +8,7 @@
 
 #include <fmt/ranges.h>
 
+#include "base/text.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "slicer/formats/output_format.h"
@@ -39,6 +40,19 @@ void add_findings(const std::string& words, slicer::PrintRules& rules) {
             word);
     rules.fail_on.insert(
         static_cast<slicer::FindingKind>(found - kFindingWords.begin()));
+  }
+}
+
+// words  "60/l, 62.5 EUR/g"
+void add_prices(const std::string& words, std::vector<slicer::Price>& prices) {
+  std::istringstream list(words);
+  for (std::string word; std::getline(list, word, ',');) {
+    const auto price = slicer::parse_price(trim(word));
+    require(price.has_value(), "--price",
+            "a sum for one of {} was expected, such as 62.5/g or '60 EUR/l', "
+            "not '{}'",
+            fmt::join(slicer::kPriceUnits, ", "), word);
+    prices.push_back(*price);
   }
 }
 
@@ -147,6 +161,10 @@ void note_design_option(OptionList& options, compiler::Request& request) {
 void add_machine_options(OptionList& options, compiler::Request& request) {
   options.name("--printer", "printer", request.output.printer);
   options.name("--material", "material", request.output.material);
+  options.name("--metal", "metal", request.output.metal);
+  options.texts("--price", "prices", [&request](const std::string& text) {
+    add_prices(text, request.output.prices);
+  });
 }
 
 void add_print_options(OptionList& options, compiler::Request& request) {

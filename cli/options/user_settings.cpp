@@ -25,9 +25,11 @@ namespace fs = std::filesystem;
 // `output` is a format: what is written where -o does not say it.
 constexpr std::string_view kOutput = "output";
 
-constexpr std::array<std::string_view, 8> kNames = {
-    "printer", "material",    "layer",      kOutput,
-    "scale",   "min-feature", "compensate", "fail-on"};
+constexpr std::string_view kPrice = "price";  // of materials
+
+constexpr std::array<std::string_view, 10> kNames = {
+    "printer", "material", "metal",       kPrice,       "layer",
+    kOutput,   "scale",    "min-feature", "compensate", "fail-on"};
 
 std::string user_folder() {
   if (const char* folder = std::getenv("XDG_CONFIG_HOME");
@@ -134,10 +136,15 @@ void apply_user_settings(const std::vector<UserSetting>& settings,
                          OptionList& options) {
   if (!makes_layers(options)) return;
   const bool has_output = !given_word(options, "-o").empty();
+  // In the order of the alphabet: materials come before their prices.
   std::map<std::string_view, const UserSetting*> last;
   for (const UserSetting& setting : settings) last[setting.name] = &setting;
   for (const auto& [name, setting] : last) {
     if (name == kOutput && has_output) continue;
+    if (name == kPrice && given_word(options, "--material").empty() &&
+        given_word(options, "--metal").empty()) {
+      continue;
+    }
     const std::string option =
         name == kOutput ? "--export-format" : fmt::format("--{}", name);
     try {

@@ -62,9 +62,10 @@ std::vector<std::string> words_of(const std::string& type,
     }
     return names;
   }
-  if (type == "material") {
+  if (type == "material" || type == "metal") {
     std::vector<std::string> names;
     for (const slicer::Material& material : slicer::known_materials()) {
+      if (type == "metal" && !material.is_metal()) continue;
       names.push_back(material.name);
     }
     return names;

@@ -28,8 +28,9 @@ using slicer::ThinFeature;
 // Metals, wax, and resin as such, the heaviest first.
 std::vector<Material> weighed_materials() {
   std::vector<Material> materials = slicer::known_materials();
-  std::erase_if(materials,
-                [](const Material& material) { return material.exposure > 0; });
+  std::erase_if(materials, [](const Material& material) {
+    return !material.exposures.empty();
+  });
   std::ranges::stable_sort(materials, std::greater(), &Material::density);
   return materials;
 }

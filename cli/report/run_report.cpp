@@ -216,8 +216,8 @@ std::string print_line(const compiler::Report& report,
 }
 
 std::string machine_line(const compiler::Report& report) {
-  const std::string text = slicer::estimate_text(
-      report.machine.printer, report.machine.material, report.estimate);
+  const std::string text =
+      slicer::estimate_text(report.machine, report.estimate);
   return text.empty() ? "" : "\n" + text;
 }
 
@@ -288,18 +288,27 @@ Json print_json(const slicer::PrintCheck& print,
 
 Json machine_json(const compiler::Machine& machine,
                   const slicer::PrintEstimate& estimate) {
-  const auto& [printer, material] = machine;
   Json json = Json::object();
-  if (printer) json["printer"] = printer->name;
-  if (material) {
-    json["material"] = material->name;
-    json["grams"] = estimate.grams;
+  const auto add = [&json](const std::string& prefix,
+                           const std::optional<slicer::Material>& material,
+                           double grams, double price) {
+    if (!material) return;
+    json[prefix + "grams"] = grams;
+    if (price == 0) return;
+    json[prefix + "price"] = price;
+    json[prefix + "currency"] = material->price->currency;
+  };
+  if (machine.printer) json["printer"] = machine.printer->name;
+  if (machine.material) json["material"] = machine.material->name;
+  add("", machine.material, estimate.grams, estimate.price);
+  if (machine.metal) json["metal"] = machine.metal->name;
+  add("metal_", machine.metal, estimate.metal_grams, estimate.metal_price);
+  if (estimate.seconds > 0) {
+    json["print_seconds"] = estimate.seconds;
+    json["exposure_s"] = estimate.exposure.exposure.layer;
+    json["first_exposure_s"] = estimate.exposure.exposure.first;
+    json["exposure_is_assumed"] = estimate.exposure.is_assumed;
   }
-  if (estimate.price > 0) {
-    json["price"] = estimate.price;
-    json["currency"] = material->currency;
-  }
-  if (estimate.seconds > 0) json["print_seconds"] = estimate.seconds;
   return json;
 }
 

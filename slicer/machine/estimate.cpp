@@ -23,15 +23,21 @@ std::string amount_text(double amount, std::string_view unit,
                         : fmt::format("{:.4g} {}", amount / 1000, thousand);
 }
 
-}  // namespace
+std::string grams_text(double grams) { return amount_text(grams, "g", "kg"); }
 
-double Exposure::of(std::size_t index) const {
-  if (index < kFirstLayers) return first;
-  const double step = (first - layer) / static_cast<double>(kFadeLayers + 1);
-  const double faded =
-      first - step * static_cast<double>(index - kFirstLayers + 1);
-  return index < kFirstLayers + kFadeLayers ? faded : layer;
+// ", 0.15 EUR"; empty where the price is not known.
+std::string price_text(const Material& material, double price) {
+  if (price == 0) return {};
+  return fmt::format(", {:.2f}{}{}", price,
+                     material.price->currency.empty() ? "" : " ",
+                     material.price->currency);
 }
+
+bool is_for(const KnownExposure& known, const std::string& printer) {
+  return known.printer.empty() || known.printer == printer;
+}
+
+}  // namespace
 
 double print_seconds(const Printer& printer, const Exposure& exposure,
                      std::size_t layers) {
@@ -43,53 +49,90 @@ double print_seconds(const Printer& printer, const Exposure& exposure,
   return seconds;
 }
 
-Exposure exposure_of(const std::optional<Material>& material) {
-  if (!material || material->exposure == 0) return {};
-  return {material->exposure, material->first_exposure};
+ChosenExposure choose_exposure(const Machine& machine, double layer_thickness) {
+  if (!machine.material || machine.material->exposures.empty()) return {};
+  const std::string printer = machine.printer ? machine.printer->name : "";
+  const auto off = [&](const KnownExposure& known) {
+    return known.layer_thickness == 0
+               ? 0
+               : std::abs(known.layer_thickness - layer_thickness);
+  };
+  const KnownExposure* best = nullptr;
+  for (const KnownExposure& known : machine.material->exposures) {
+    const bool is_better =
+        best == nullptr || (is_for(known, printer) != is_for(*best, printer)
+                                ? is_for(known, printer)
+                                : off(known) < off(*best));
+    if (is_better) best = &known;
+  }
+  if (!is_for(*best, printer)) return {best->exposure, best->printer, true};
+  if (off(*best) == 0) return {best->exposure, "", false};
+  return {best->exposure,
+          fmt::format("layers of {:g} mm", best->layer_thickness), true};
 }
 
-PrintEstimate estimate_print(const std::optional<Printer>& printer,
-                             const std::optional<Material>& material,
+PrintEstimate estimate_print(const Machine& machine, double layer_thickness,
                              std::size_t layers, double volume) {
   PrintEstimate estimate;
   estimate.volume = volume;
-  if (material) {
+  if (const auto& material = machine.material) {
     estimate.grams = material->weight(volume);
-    estimate.price = material->price * volume / 1e6;
+    if (material->price) {
+      estimate.price = material->price->of(estimate.grams, volume);
+    }
   }
-  if (printer) {
-    estimate.seconds = print_seconds(*printer, exposure_of(material), layers);
+  if (const auto& metal = machine.metal) {
+    estimate.metal_grams = metal->weight(volume);
+    if (metal->price) {
+      estimate.metal_price = metal->price->of(estimate.metal_grams, volume);
+    }
+  }
+  if (machine.printer) {
+    estimate.exposure = choose_exposure(machine, layer_thickness);
+    estimate.seconds =
+        print_seconds(*machine.printer, estimate.exposure.exposure, layers);
   }
   return estimate;
 }
 
-std::string estimate_text(const std::optional<Printer>& printer,
-                          const std::optional<Material>& material,
+PrintEstimate operator+(PrintEstimate sum, const PrintEstimate& other) {
+  sum.seconds += other.seconds;
+  sum.exposure = other.exposure;
+  sum.volume += other.volume;
+  sum.grams += other.grams;
+  sum.price += other.price;
+  sum.metal_grams += other.metal_grams;
+  sum.metal_price += other.metal_price;
+  return sum;
+}
+
+std::string estimate_text(const Machine& machine,
                           const PrintEstimate& estimate) {
+  const auto& [printer, material, metal] = machine;
   std::string text;
   const auto add = [&text](const std::string& words) {
     text += (text.empty() ? "" : ", ") + words;
   };
-  const bool is_resin = material && material->exposure > 0;
-  if (is_resin || (printer && !material)) {
-    add(fmt::format("{} of {}", amount_text(estimate.volume / 1000, "ml", "l"),
-                    material ? material->title : "resin"));
-    if (material) add(amount_text(estimate.grams, "g", "kg"));
-  } else if (material) {
-    add(fmt::format("{} of {}", amount_text(estimate.grams, "g", "kg"),
-                    material->title));
+  const std::string volume = amount_text(estimate.volume / 1000, "ml", "l");
+  if (material) {
+    add(fmt::format("{} of {}, {}{}", volume, material->title,
+                    grams_text(estimate.grams),
+                    price_text(*material, estimate.price)));
+  } else if (printer && !metal) {
+    add(fmt::format("{} of resin", volume));
   }
-  if (estimate.price > 0) {
-    add(fmt::format("{:.2f} {}", estimate.price, material->currency));
+  if (metal) {
+    add(fmt::format("{}{} of {}{}", material ? "cast in " : "",
+                    grams_text(estimate.metal_grams), metal->title,
+                    price_text(*metal, estimate.metal_price)));
   }
   if (estimate.seconds > 0) {
-    const bool is_known = is_resin && (material->printer.empty() ||
-                                       material->printer == printer->name);
     add(fmt::format("{} on {}{}", duration_text(estimate.seconds),
                     printer->title,
-                    is_known ? ""
-                             : fmt::format(" if a layer is exposed for {:g} s",
-                                           exposure_of(material).layer)));
+                    estimate.exposure.is_assumed
+                        ? fmt::format(" if a layer is exposed for {:g} s",
+                                      estimate.exposure.exposure.layer)
+                        : ""));
   }
   return text;
 }

@@ -1,5 +1,12 @@
 #include "slicer/machine/material.h"
 
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
 #include "slicer/machine/detail/profile.h"
 
 namespace lamina::slicer {
@@ -10,31 +17,93 @@ using nlohmann::json;
 constexpr double kGreatestDensity = 25;  // [g/cm³]; osmium has 22.6
 constexpr double kGreatestExposure = 1000;
 constexpr double kGreatestPrice = 1e9;
+constexpr double kTroyOunce = 31.1034768;  // [g]
+
+KnownExposure read_exposure(const json& object) {
+  detail::require_members(object, {"exposure_s", "first_exposure_s", "printer",
+                                   "layer_mm", "source"});
+  KnownExposure known;
+  object.at("exposure_s");  // which none can do without
+  known.exposure.layer =
+      detail::read_number(object, "exposure_s", 0, kGreatestExposure, 0);
+  known.exposure.first = detail::read_number(
+      object, "first_exposure_s", 0, kGreatestExposure, known.exposure.layer);
+  known.printer = detail::read_line(object, "printer", "");
+  known.layer_thickness = detail::read_number(object, "layer_mm", 0, 10, 0);
+  known.source = detail::read_line(object, "source", "");
+  return known;
+}
+
+Price read_price(const json& object, const char* member,
+                 std::string_view unit) {
+  return {detail::read_number(object, member, 0, kGreatestPrice, 0),
+          detail::read_line(object, "currency", ""), std::string(unit)};
+}
 
 Material read_material(const json& object) {
-  detail::require_members(object, {"name", "title", "source", "density",
-                                   "exposure_s", "first_exposure_s", "printer",
-                                   "layer_mm", "price_per_litre", "currency"});
+  detail::require_members(
+      object,
+      {"name", "title", "also", "source", "density", "exposures",
+       "price_per_litre", "price_per_gram", "price_per_ounce", "currency"});
   Material material;
   material.name = detail::read_line(object, "name");
   material.title = detail::read_line(object, "title", material.name);
+  material.also = detail::read_lines(object, "also");
   material.source = detail::read_line(object, "source", "");
   object.at("density");  // which none can do without
   material.density =
       detail::read_number(object, "density", 0.01, kGreatestDensity, 0);
-  material.exposure =
-      detail::read_number(object, "exposure_s", 0, kGreatestExposure, 0);
-  material.first_exposure = detail::read_number(
-      object, "first_exposure_s", 0, kGreatestExposure, material.exposure);
-  material.printer = detail::read_line(object, "printer", "");
-  material.layer_thickness = detail::read_number(object, "layer_mm", 0, 10, 0);
-  material.price =
-      detail::read_number(object, "price_per_litre", 0, kGreatestPrice, 0);
-  material.currency = detail::read_line(object, "currency", "");
+  if (object.contains("exposures")) {
+    for (const json& exposure : object.at("exposures")) {
+      material.exposures.push_back(read_exposure(exposure));
+    }
+  }
+  for (const auto& [member, unit] :
+       {std::pair{"price_per_litre", "l"}, std::pair{"price_per_gram", "g"},
+        std::pair{"price_per_ounce", "oz"}}) {
+    if (!object.contains(member)) continue;
+    if (material.price) throw std::runtime_error("it has two prices");
+    material.price = read_price(object, member, unit);
+  }
   return material;
 }
 
 }  // namespace
+
+double Exposure::of(std::size_t index) const {
+  if (index < kFirstLayers) return first;
+  const double step = (first - layer) / static_cast<double>(kFadeLayers + 1);
+  const double faded =
+      first - step * static_cast<double>(index - kFirstLayers + 1);
+  return index < kFirstLayers + kFadeLayers ? faded : layer;
+}
+
+double Price::of(double grams, double volume_mm3) const {
+  if (unit == "l") return amount * volume_mm3 / 1e6;
+  if (unit == "kg") return amount * grams / 1000;
+  return unit == "oz" ? amount * grams / kTroyOunce : amount * grams;
+}
+
+std::optional<Price> parse_price(std::string_view text) {
+  const std::size_t slash = text.rfind('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const std::string_view unit = text.substr(slash + 1);
+  if (std::ranges::find(kPriceUnits, unit) == std::end(kPriceUnits)) {
+    return std::nullopt;
+  }
+  const std::string_view sum = text.substr(0, slash);
+  const std::size_t digits =
+      std::min(sum.find_first_not_of("0123456789."), sum.size());
+  const std::optional<double> amount = parse_number(sum.substr(0, digits));
+  if (!amount || *amount > kGreatestPrice) return std::nullopt;
+  const std::size_t word =
+      std::min(sum.find_first_not_of(' ', digits), sum.size());
+  if (sum.find_first_of("0123456789/", word) != std::string_view::npos) {
+    return std::nullopt;
+  }
+  return Price{*amount, on_one_line(std::string(sum.substr(word))),
+               std::string(unit)};
+}
 
 std::vector<Material> known_materials() {
   std::vector<Material> materials;

@@ -197,15 +197,17 @@ TEST(Check, APrismThatLeansHasNoJump) {
 
 TEST(Machine, APartThatDoesNotFitIsAnError) {
   const TemporaryFolder folder;
-  folder.write("a.scad", "$fn = 40; cylinder(r = 2, h = 400);");
+  folder.write("a.scad", "$fn = 40; cylinder(r = 2, h = 500);");
   for (const std::string output : {"a.sl1", "a.slc"}) {
     const auto result =
         run(folder, {"a.scad", "-o", output, "--printer", "prusa-sl1"});
     EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.errors,
-              "error: The design is 4 x 4 x 400 mm, larger than what prusa-sl1 "
-              "builds: 120.96 x 68.04 x 150 mm; lamina knows no printer that "
-              "is large enough\n");
+    EXPECT_TRUE(
+        has(result.errors,
+            "error: The design is 4 x 4 x 500 mm, larger than what prusa-sl1 "
+            "builds: 120.96 x 68.04 x 150 mm; lamina knows no printer that "
+            "is large enough\n"))
+        << result.errors;
     EXPECT_EQ(folder.entry_count(), 1U);
   }
 }
@@ -221,7 +223,7 @@ TEST(Machine, WarnsOfArchivesAndExposuresForOthers) {
                   "that convert it, such as UVtools: the printer does not read "
                   "it\n"))
       << archive.errors;
-  const auto exposure = run(folder, {"a.scad", "-o", "b.sl1", "--layer", "0.1",
+  const auto exposure = run(folder, {"a.scad", "-o", "b.sl1", "--layer", "0.07",
                                      "--material", "prusa-orange-tough"});
   EXPECT_TRUE(has(exposure.errors,
                   "warning: the exposure of Prusa Orange Tough is for layers "
@@ -229,10 +231,105 @@ TEST(Machine, WarnsOfArchivesAndExposuresForOthers) {
       << exposure.errors;
 }
 
+// In 80 columns, and in full on request.
 TEST(Machine, IsListed) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(has(run(folder, {"printers"}).output, "elegoo-mars-3"));
-  EXPECT_TRUE(has(run(folder, {"materials"}).output, "sterling-silver"));
+  const std::string printers = run(folder, {"printers"}).output;
+  const std::string materials = run(folder, {"materials"}).output;
+  EXPECT_TRUE(has(printers, "elegoo-mars-3 ")) << printers;
+  EXPECT_TRUE(has(materials, "sterling-silver ")) << materials;
+  EXPECT_FALSE(has(printers, "UVtools")) << printers;
+  std::istringstream lines(printers + materials);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(
+        std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }),
+        80)
+        << line;
+  }
+  const auto some = run(folder, {"printers", "elegoo", "saturn4"});
+  EXPECT_EQ(some.status, 0);
+  EXPECT_EQ(std::ranges::count(some.output, '\n'), 4) << some.output;
+  EXPECT_TRUE(has(some.output, "elegoo-saturn-4-ultra-16k ")) << some.output;
+  const auto one = run(folder, {"printers", "mars", "3", "--all"});
+  EXPECT_TRUE(has(one.output, "elegoo-mars-3: Elegoo Mars 3\n")) << one.output;
+  EXPECT_TRUE(has(one.output, "source: UVtools")) << one.output;
+  const auto none = run(folder, {"materials", "kryptonite"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_EQ(none.errors, "error: no name has 'kryptonite'\n");
+}
+
+// 1 cm³ of resin of 1.1 g/cm³ and of gold of 15.4 g/cm³.
+TEST(Machine, PrintsInResinAndCastsInMetal) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(10);");
+  const auto result =
+      run(folder, {"a.scad", "-o", "a.sl1", "--printer", "sl1s", "--material",
+                   "liqcreate wax", "--metal", "gold 750", "--price", "300/l",
+                   "--price", "60 EUR/g", "--report", "a.json"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(has(result.errors,
+                  "\n1 ml of Liqcreate Wax Castable, 1.1 g, 0.30, cast in 15.4 "
+                  "g of yellow gold 750 (18 k), 924.00 EUR, "))
+      << result.errors;
+  EXPECT_TRUE(has(result.errors, " on Original Prusa SL1S SPEED\n"))
+      << result.errors;
+  const json report = json::parse(read_file(folder.file("a.json")));
+  EXPECT_EQ(report["material"], "liqcreate-wax-castable");
+  EXPECT_EQ(report["metal"], "gold-18k-yellow");
+  EXPECT_NEAR(report["metal_price"], 924, 1e-6);
+  EXPECT_EQ(report["metal_currency"], "EUR");
+  EXPECT_EQ(report["exposure_s"], 4.5);
+  EXPECT_EQ(report["exposure_is_assumed"], false);
+  EXPECT_TRUE(has(run(folder, {"a.scad", "-o", "b.slc", "--metal", "bronze",
+                               "--material", "brass"})
+                      .errors,
+                  "error: 'brass' and 'bronze' are both metals"));
+  EXPECT_TRUE(has(
+      run(folder, {"a.scad", "-o", "b.slc", "--metal", "casting wax"}).errors,
+      "Can't use metal 'casting wax': casting wax is not a metal"));
+}
+
+// A time that rests on an exposure that nobody found says so.
+TEST(Machine, SaysThatAnExposureIsAssumed) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  const std::vector<std::string> words = {"a.scad", "-o", "a.goo", "--printer",
+                                          "Elegoo Mars 4"};
+  const auto result = run(folder, words);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(has(result.errors,
+                  "no exposure is known for a resin that --material names: 8 s "
+                  "a layer and 35 s for the first are assumed\n"))
+      << result.errors;
+  EXPECT_TRUE(
+      has(result.errors, "on Elegoo Mars 4 if a layer is exposed for 8 s\n"))
+      << result.errors;
+  const auto checked = run(folder, {"check", "a.scad", "--printer", "mars3"});
+  EXPECT_TRUE(
+      has(checked.output, "on Elegoo Mars 3 if a layer is exposed for 8 s\n"))
+      << checked.output;
+  folder.write("mine.json", R"({"name": "mine", "density": 1.1, "exposures":
+      [{"exposure_s": 2.5, "printer": "elegoo-mars-4"}]})");
+  auto with_mine = words;
+  with_mine.insert(with_mine.end(), {"--material", "mine.json"});
+  const auto known = run(folder, with_mine);
+  EXPECT_FALSE(has(known.errors, "if a layer")) << known.errors;
+  EXPECT_FALSE(has(known.errors, "assumed")) << known.errors;
+}
+
+TEST(Machine, OfContoursGetsContours) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(10);");
+  EXPECT_EQ(run(folder, {"a.scad", "-q", "--printer", "b9creator"}).status, 0);
+  EXPECT_FALSE(read_file(folder.file("a.slc")).empty());
+  const auto images =
+      run(folder, {"a.scad", "-o", "a.goo", "--printer", "b9creator"});
+  EXPECT_EQ(images.status, 1);
+  EXPECT_TRUE(
+      has(images.errors, "error: B9Creator has no panel to show images on"))
+      << images.errors;
+  EXPECT_EQ(run(folder, {"check", "a.scad", "--printer", "b9creator"}).status,
+            0);
 }
 
 }  // namespace

@@ -59,6 +59,14 @@ TEST_F(UserSettings, NameTheFormatWhereNoOutputDoes) {
       has(run_at_home({"a.scad", "-o", "b.slc"}).errors, "b.slc: 80 layers"));
 }
 
+TEST_F(UserSettings, PriceWhatIsNamed) {
+  write_config("price = 60 EUR/l, 2 EUR/g\n");
+  EXPECT_EQ(run_at_home({"a.scad"}).status, 0);
+  const auto cast = run_at_home({"a.scad", "--metal", "silver 925"});
+  EXPECT_TRUE(has(cast.errors, " g of sterling silver (925), ")) << cast.errors;
+  EXPECT_TRUE(has(cast.errors, " EUR")) << cast.errors;
+}
+
 TEST_F(UserSettings, AreForLayersAlone) {
   write_config("printer = elegoo-mars-3\nfail-on = all\n");
   EXPECT_EQ(run_at_home({"a.scad", "-o", "a.csg"}).status, 0);

@@ -34,6 +34,8 @@ TEST(KnownPrinters, AreMoreThanTwentyWithASourceEach) {
   for (const Printer& printer : printers) {
     EXPECT_TRUE(names.insert(printer.name).second) << printer.name;
     EXPECT_NE(printer.source, "") << printer.name;
+    EXPECT_FALSE(printer.reads.empty() && printer.name != "plain")
+        << printer.name;
     if (printer.name == "plain") continue;
     EXPECT_GT(printer.build_height, 100) << printer.name;
     const Vec3 volume = printer.build_volume();
@@ -41,8 +43,47 @@ TEST(KnownPrinters, AreMoreThanTwentyWithASourceEach) {
   }
   for (const Material& material : known_materials()) {
     EXPECT_NE(material.source, "") << material.name;
-    EXPECT_TRUE(material.printer.empty() || names.contains(material.printer))
-        << material.name;
+    for (const KnownExposure& known : material.exposures) {
+      EXPECT_TRUE(names.contains(known.printer)) << material.name;
+      EXPECT_NE(known.source, "") << material.name;
+      EXPECT_GT(known.exposure.layer, 0) << material.name;
+      EXPECT_GE(known.exposure.first, known.exposure.layer) << material.name;
+    }
+  }
+}
+
+// Thirds of gold weigh less than three quarters, and what is whitened with
+// palladium more than what is whitened with nickel.
+TEST(KnownMaterials, OfMoreGoldAreHeavier) {
+  const auto density = [](const char* name) {
+    const Material metal = find_material(name);
+    EXPECT_TRUE(metal.is_metal()) << name;
+    return metal.density;
+  };
+  for (const std::string colour : {"yellow", "white"}) {
+    EXPECT_LT(density(("gold-375-" + colour).c_str()),
+              density(("gold-585-" + colour).c_str()));
+    EXPECT_LT(density(("gold-585-" + colour).c_str()),
+              density(("gold-750-" + colour).c_str()));
+    EXPECT_LT(density(("gold-750-" + colour).c_str()), density("fine gold"));
+  }
+  for (const std::string fineness : {"585", "750"}) {
+    EXPECT_LT(density(("gold " + fineness + " white").c_str()),
+              density(("gold-" + fineness + "-palladium-white").c_str()));
+  }
+  EXPECT_LT(density("silver 925"), density("silver-935"));
+  EXPECT_LT(density("silver-935"), density("fine silver"));
+  EXPECT_FALSE(find_material("casting wax").is_metal());
+}
+
+void expect_schema(const json& object, const json& schema,
+                   const fs::path& file) {
+  for (const auto& [member, value] : object.items()) {
+    EXPECT_TRUE(schema.at("properties").contains(member))
+        << file << ": " << member;
+  }
+  for (const json& member : schema.at("required")) {
+    EXPECT_TRUE(object.contains(member)) << file << ": " << member;
   }
 }
 
@@ -55,12 +96,10 @@ TEST(Profiles, KeepToTheirSchema) {
       if (file.path().extension() != ".json") continue;
       const json profile = read_json(file.path());
       EXPECT_EQ(profile.at("name"), file.path().stem().string());
-      for (const auto& [member, value] : profile.items()) {
-        EXPECT_TRUE(schema.at("properties").contains(member))
-            << file.path() << ": " << member;
-      }
-      for (const json& member : schema.at("required")) {
-        EXPECT_TRUE(profile.contains(member)) << file.path() << ": " << member;
+      expect_schema(profile, schema, file.path());
+      if (!profile.contains("exposures")) continue;
+      for (const json& exposure : profile.at("exposures")) {
+        expect_schema(exposure, schema.at("$defs").at("exposure"), file.path());
       }
     }
   }
@@ -88,7 +127,14 @@ TEST(Profiles, SayWhatIsWrong) {
             "density is from 0.01 to 25, not 99");
   EXPECT_EQ(fault_of(R"({"name": "a"})", false), "key 'density' not found");
   EXPECT_EQ(fault_of(R"({"name": "a", "density": 1, "exposure": 3})", false),
-            "there is no member 'exposure'; did you mean 'exposure_s'?");
+            "there is no member 'exposure'; did you mean 'exposures'?");
+  EXPECT_EQ(
+      fault_of(R"({"name": "a", "density": 1, "exposures": [{}]})", false),
+      "key 'exposure_s' not found");
+  EXPECT_EQ(fault_of(R"({"name": "a", "density": 1, "price_per_gram": 1,
+                         "price_per_ounce": 30})",
+                     false),
+            "it has two prices");
   const std::string printer =
       R"({"name": "a", "pixels": [9, 9], "pixel_mm": [1, 1], "right": "+x",)";
   EXPECT_EQ(fault_of(printer + R"("up": "+y"})", true), "");
@@ -96,6 +142,10 @@ TEST(Profiles, SayWhatIsWrong) {
             "height_mm is from 0.001 to 10000, not -1");
   EXPECT_EQ(fault_of(printer + R"("up": "+y", "hight_mm": 1})", true),
             "there is no member 'hight_mm'; did you mean 'height_mm'?");
+  EXPECT_EQ(fault_of(printer + R"("up": "+y", "plate_mm": [9, 9]})", true),
+            "plate_mm is for printers without pixels");
+  EXPECT_EQ(fault_of(R"({"name": "a", "plate_mm": [9, 0]})", true),
+            "plate_mm must be positive");
 }
 
 // Their texts stand in settings of machines, in messages and on pages.
@@ -104,11 +154,11 @@ TEST(Profiles, HaveTextsOfOneLine) {
   const std::string line = "a\\u000AexpTime = 0.1\\u202E";
   folder.write("material.json",
                R"({"name": "a\nexpTime = 0.1\u202e", "density": 1,
-                   "currency": "a\nexpTime = 0.1\u202e"})");
+                   "price_per_gram": 1, "currency": "a\nexpTime = 0.1\u202e"})");
   const Material material = find_material(folder.file("material.json"));
   EXPECT_EQ(material.name, line);
   EXPECT_EQ(material.title, line);
-  EXPECT_EQ(material.currency, line);
+  EXPECT_EQ(material.price->currency, line);
   folder.write("printer.json",
                R"({"name": "a", "title": "a\nexpTime = 0.1\u202e",
                    "pixels": [9, 9], "pixel_mm": [1, 1],
@@ -116,16 +166,46 @@ TEST(Profiles, HaveTextsOfOneLine) {
   EXPECT_EQ(find_printer(folder.file("printer.json")).title, line);
 }
 
-TEST(Profiles, GuessNames) {
+std::string fault_of_printer(const std::string& name) {
   try {
-    find_printer("elego-mars-3");
-    FAIL();
+    return "found " + find_printer(name).name;
   } catch (const FileError& error) {
-    EXPECT_STREQ(error.what(),
-                 "Can't use printer 'elego-mars-3': did you mean "
-                 "'elegoo-mars-3'? 'lamina printers' lists those that lamina "
-                 "knows, and a file of your own ends in .json");
+    return error.what();
   }
+}
+
+TEST(Profiles, GuessNames) {
+  EXPECT_EQ(fault_of_printer("ellego-mars-3"),
+            "Can't use printer 'ellego-mars-3': did you mean 'elegoo-mars-3'? "
+            "'lamina printers' lists those that lamina knows, and a file of "
+            "your own ends in .json");
+}
+
+TEST(Profiles, AreFoundByTheirTitleOrAPartThatNoOtherHas) {
+  for (const char* name : {"Elegoo Mars 3", "elegoo mars 3", "mars 3", "MARS3",
+                           "mars-3", "elegoo-mars-3"}) {
+    EXPECT_EQ(fault_of_printer(name), "found elegoo-mars-3") << name;
+  }
+  // A whole name, though it is a part of others.
+  EXPECT_EQ(fault_of_printer("Elegoo Saturn"), "found elegoo-saturn");
+  EXPECT_EQ(fault_of_printer("saturn4ultra"),
+            "Can't use printer 'saturn4ultra': it could be "
+            "elegoo-saturn-4-ultra-12k or elegoo-saturn-4-ultra-16k");
+  const std::string many = fault_of_printer("photon mono");
+  EXPECT_NE(many.find("more ('lamina printers photon mono' lists them)"),
+            std::string::npos)
+      << many;
+  // Parts begin words.
+  EXPECT_NE(fault_of_printer("ars 3").find("lists those that lamina knows"),
+            std::string::npos);
+  EXPECT_EQ(find_material("gold 750").name, "gold-18k-yellow");
+  EXPECT_EQ(find_material("platinum").name, "platinum-950");
+}
+
+TEST(Printer, OfContoursHasNoPanel) {
+  const Printer printer = find_printer("b9creator");
+  EXPECT_FALSE(printer.has_panel());
+  EXPECT_EQ(printer.build_volume(), Vec3(102.4, 76.8, 203.2));
 }
 
 TEST(TooLarge, NamesPrintersThatAreLargeEnough) {
@@ -140,7 +220,7 @@ TEST(TooLarge, NamesPrintersThatAreLargeEnough) {
                        "anycubic-photon-m3-max ("),
             std::string::npos)
       << words;
-  EXPECT_NE(std::string(TooLarge(mars, Vec3(4, 4, 400)).what())
+  EXPECT_NE(std::string(TooLarge(mars, Vec3(4, 4, 500)).what())
                 .find("lamina knows no printer that is large enough"),
             std::string::npos);
 }
