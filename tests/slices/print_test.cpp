@@ -268,6 +268,32 @@ TEST(PrintCheck, CountsWhatIsSmallerThanAPixelApart) {
   EXPECT_EQ(report.print->count_minor(), 1U);
 }
 
+TEST(PrintCheck, CountsStripsNarrowerThanHalfAPixelApart) {
+  for (const auto& [width, kind] :
+       {std::pair("0.01", ""), std::pair("0.03", "1 loose part")}) {
+    const PrintCheck print = check("cube(5); translate([8, 0, 2]) cube([3, " +
+                                   std::string(width) + ", 1]);");
+    EXPECT_EQ(counts(print), kind) << width;
+    EXPECT_EQ(print.findings.size(), 1U) << width;
+  }
+}
+
+// Its lowest layer is smaller than a pixel, those above it are not.
+TEST(PrintCheck, JudgesAnIslandByItsGreatestLayer) {
+  const PrintCheck print = check(
+      "cube([2, 2, 6]); translate([0, 0, 5]) cube([6, 2, 1]);"
+      "translate([5, 1, 1]) cylinder(r1 = 0.001, r2 = 0.5, h = 4.5, $fn = "
+      "30);");
+  EXPECT_EQ(print.count(FindingKind::kIsland), 1U);
+}
+
+// What no contact is wide enough for holds no resin.
+TEST(PrintCheck, PassesOverHollowsNarrowerThanAContact) {
+  EXPECT_TRUE(check("difference() { cube(5); translate([1, 1, 1]) "
+                    "cube([3, 0.0009, 3]); }")
+                  .findings.empty());
+}
+
 // --- Laws -------------------------------------------------------------------
 
 const char* const kFigure =

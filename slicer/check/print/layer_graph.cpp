@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "plane/loop_area.h"
 #include "slicer/check/print/pole.h"
 #include "slicer/contour/deviation.h"
 
@@ -84,6 +85,8 @@ void merge(Finding& kept, const Finding& other) {
     kept.last_layer = other.last_layer;
     kept.top = other.top;
   }
+  kept.area = std::max(kept.area, other.area);
+  kept.width = std::max(kept.width, other.width);
   kept.volume += other.volume;
   kept.box.add(other.box);
 }
@@ -244,6 +247,14 @@ plane::Contours LayerGraph::contours_of(const Layer& layer,
   return contours;
 }
 
+double LayerGraph::width_of(const Layer& layer, std::uint32_t region) const {
+  double length = perimeter(layer.contours.loop(region));
+  for (const std::uint32_t loop : standing_in_[region]) {
+    length += perimeter(layer.contours.loop(loop));
+  }
+  return length > 0 ? 2 * areas_[region] / length : 0;
+}
+
 Finding LayerGraph::begin_finding(FindingKind kind, const Layer& layer) const {
   Finding finding;
   finding.kind = kind;
@@ -320,6 +331,7 @@ void LayerGraph::extend(const Layer& layer) {
     finding.last_layer = layers_;
     finding.top = layer.top;
     finding.area = std::max(finding.area, areas_[i]);
+    finding.width = std::max(finding.width, width_of(layer, i));
     finding.volume += areas_[i] * thickness;
     Box2 box;
     box.add(layer.contours.loop(i));
@@ -374,8 +386,16 @@ void LayerGraph::end_island(std::uint32_t component) {
   finding.last_layer = now.last_layer;
   finding.top = now.top;
   finding.box = now.box;
+  finding.width = now.width;
   finding.is_minor =
-      finding.area < kPeakArea && finding.last_layer == finding.first_layer;
+      is_below_pixel(now) ||
+      (finding.area < kPeakArea && finding.last_layer == finding.first_layer);
+}
+
+// Whether no layer of it hardens a pixel, or leaves one open.
+bool LayerGraph::is_below_pixel(const Finding& finding) const {
+  return finding.area < rules_.least_area ||
+         finding.width < std::sqrt(rules_.least_area) / 2;
 }
 
 std::uint32_t LayerGraph::join_voids(std::uint32_t a, std::uint32_t b) {
@@ -438,8 +458,9 @@ void LayerGraph::join_overhangs(std::uint32_t a, std::uint32_t b) {
   overhang_sets_.unite(kept, other);
   Finding& finding = overhangs_[kept];
   const Finding& joined = overhangs_[other];
+  const double area = finding.area + joined.area;
   merge(finding, joined);
-  finding.area += joined.area;
+  finding.area = area;
   if (joined.distance > finding.distance) {
     finding.distance = joined.distance;
     finding.place = joined.place;
@@ -486,11 +507,21 @@ PrintCheck LayerGraph::finish() {
   PrintCheck check{.findings = {}, .peel = peel_};
   for (std::size_t i = 0; i < findings_.size(); ++i) {
     if (i < is_known.size() && is_known[i]) continue;
+    if (findings_[i].kind != FindingKind::kOverhang &&
+        findings_[i].width < kContactWidth) {
+      continue;
+    }
     Finding& finding = check.findings.emplace_back(findings_[i]);
-    const bool has_volume = finding.kind != FindingKind::kIsland &&
-                            finding.kind != FindingKind::kOverhang;
-    finding.is_minor = finding.is_minor || finding.area < rules_.least_area ||
-                       (has_volume && finding.volume < rules_.least_volume);
+    switch (finding.kind) {
+      case FindingKind::kIsland:
+        break;  // judged by all its layers when it ended
+      case FindingKind::kOverhang:
+        finding.is_minor |= finding.area < rules_.least_area;
+        break;
+      default:
+        finding.is_minor |=
+            is_below_pixel(finding) || finding.volume < rules_.least_volume;
+    }
   }
   std::ranges::stable_sort(check.findings, {}, [](const Finding& finding) {
     return std::tuple(finding.first_layer, finding.kind, finding.place.x,

@@ -18,6 +18,10 @@
 //                what opens only higher up is closed by the film
 //   resin trap   void that no way leads out of at all
 //
+// What is narrower than kContactWidth in all layers is no finding. What hardens
+// no pixel is minor: its greatest layer is smaller than one, or a strip
+// narrower than half of one.
+//
 // A layer with the contours of the one before changes nothing but heights. One
 // that begins above the end of the layer before lies over nothing.
 
@@ -60,7 +64,10 @@ struct Finding {
   // The greatest area of a layer; of an island that of its first layer, of an
   // overhang that of all layers together [mm²].
   double area = 0;
-  double volume = 0;    // of loose parts, cups and traps [mm³]
+  double volume = 0;  // of loose parts, cups and traps [mm³]
+  // The greatest of a layer, as twice the area over the perimeter: that of a
+  // long strip, half the side of a square. Overhangs have none [mm].
+  double width = 0;
   double distance = 0;  // of an overhang, to what holds it [mm]
   Box3 box;
   // An island that another part reaches: then in layer last_layer + 1.
@@ -133,6 +140,7 @@ class LayerGraph {
   void take_voids(const Layer& layer, const LayerOverlay& overlay);
   void take_area(double area);
   plane::Contours contours_of(const Layer& layer, std::uint32_t region) const;
+  double width_of(const Layer& layer, std::uint32_t region) const;
   void take_overhangs(const Layer& layer, const LayerOverlay& overlay);
   void extend(const Layer& layer);
   Finding begin_finding(FindingKind kind, const Layer& layer) const;
@@ -142,6 +150,7 @@ class LayerGraph {
   std::uint32_t join_voids(std::uint32_t a, std::uint32_t b);
   void end_island(std::uint32_t component);
   void add_cup(const Component& component);
+  bool is_below_pixel(const Finding& finding) const;
   void join_overhangs(std::uint32_t a, std::uint32_t b);
 
   const PrintRules rules_;
