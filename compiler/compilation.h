@@ -32,6 +32,8 @@ struct Report {
   // No value where nothing is promised: the paper's contours.
   std::optional<slicer::Deviation> deviation;
   Machine machine;
+  // The supports that were added, if any were asked for.
+  std::optional<slicer::SupportPlan> supports;
   slicer::PrintEstimate estimate;
   std::uint64_t snapped_layers = 0;  // slicer::LayerWriter
   std::uint64_t warnings = 0;

@@ -16,6 +16,7 @@
 #include "compiler/layer_output.h"
 #include "compiler/make_rule.h"
 #include "compiler/stage_text.h"
+#include "compiler/supports.h"
 #include "csg/lower/emptiness.h"
 
 namespace lamina::compiler {
@@ -58,7 +59,18 @@ auto explained(const Compilation& c, const Work& work) {
   }
 }
 
+// Slices the design without supports to see where they must stand.
+void add_supports(Compilation& c) {
+  if (!c.request.supports) return;
+  c.report.supports =
+      plan_supports(c.request, c.evaluation_stack, c.temporary_files);
+  if (!c.report.supports) return;
+  warn_of_unheld(*c.report.supports, c.diagnostics);
+  c.loader.append(support_lines(*c.report.supports, c.request.geometry));
+}
+
 void load_design(Compilation& c) {
+  add_supports(c);
   c.design = timed(c.report.load_seconds, [&] {
     return load(c.request.design, c.loader, c.diagnostics);
   });

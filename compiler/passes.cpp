@@ -151,6 +151,40 @@ void place(const Request& request, const Machine& machine, csg::Scene& scene,
   if (request.geometry.is_placed_on_bed) slicer::place_on_bed(scene);
 }
 
+// Counts layers on their way to a sink. Both must outlive it; the progress may
+// be empty.
+class CountingSink : public slicer::LayerSink {
+ public:
+  CountingSink(slicer::LayerSink& sink, const Progress& progress)
+      : sink_(sink), progress_(progress) {}
+
+  void begin(const Box3& box) override { sink_.begin(box); }
+  void expect(std::uint32_t layers) override {
+    all_ = layers;
+    sink_.expect(layers);
+    if (progress_) progress_(0, all_);
+  }
+  std::string encode(const slicer::Layer& layer) const override {
+    return sink_.encode(layer);
+  }
+  void take(const slicer::Layer& layer) override { take_encoded(layer, {}); }
+  void take_encoded(const slicer::Layer& layer,
+                    const std::string& encoded) override {
+    sink_.take_encoded(layer, encoded);
+    if (progress_) progress_(++done_, all_);
+  }
+  // Fewer layers can come than were expected.
+  void finish() const {
+    if (progress_) progress_(all_, all_);
+  }
+
+ private:
+  slicer::LayerSink& sink_;
+  const Progress& progress_;
+  std::uint64_t done_ = 0;
+  std::uint64_t all_ = 0;
+};
+
 // Folders of modules, the one that is asked for first.
 std::vector<std::string> module_folders_of(const DesignRequest& request) {
   std::vector<std::string> folders = module_folders();
@@ -276,6 +310,10 @@ void judge(const csg::Lowered& lowered, const Request& request,
 
 slicer::Settings settings_of(const Request& request, const Machine& machine) {
   slicer::Settings settings = request.job;
+  if (request.supports && settings.print.self_supporting == 0) {
+    settings.print.self_supporting =
+        slicer::hold_radius(request.supports->tip, 0);
+  }
   if (machine.printer && machine.printer->has_panel()) {
     const Vec2 pixel = machine.printer->pixel;
     settings.print.least_area = pixel.x * pixel.y;

@@ -3,11 +3,12 @@
 // its stage, appends to Diagnostics, and throws where the run must end.
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/diagnostic.h"
-#include "compiler/counting_sink.h"
 #include "compiler/machine.h"
 #include "compiler/request.h"
 #include "csg/cad/cad_reader.h"
@@ -20,6 +21,11 @@
 #include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
+
+// Called with the number of layers done and of all that there can be: with 0
+// before the first layer, after each, and with both equal after the last. By
+// one thread at a time.
+using Progress = std::function<void(std::uint64_t done, std::uint64_t all)>;
 
 // A design as its text says it.
 struct LoadedDesign {
@@ -68,7 +74,8 @@ void judge(const csg::Lowered& lowered, const Request& request,
            Diagnostics& diagnostics);
 
 // The settings of the request, with the limits of its format and of the
-// printer: what is smaller than its pixel is too small to matter.
+// printer: what is smaller than its pixel is too small to matter. Supports hold
+// what is near.
 slicer::Settings settings_of(const Request& request, const Machine& machine);
 
 // Where the layers are; of an outline there is none. Throws GeometryError where

@@ -13,6 +13,7 @@
 #include "slicer/formats/output_format.h"
 #include "slicer/machine/material.h"
 #include "slicer/slice/settings.h"
+#include "slicer/supports/support_plan.h"
 
 namespace lamina::compiler {
 
@@ -88,6 +89,8 @@ struct Request {
   DesignRequest design;
   GeometryRequest geometry;
   slicer::Settings job;  // how the solid is sliced
+  // Supports are added to the design.
+  std::optional<slicer::SupportSizes> supports;
   OutputRequest output;
 };
 

@@ -88,9 +88,14 @@ void require_heights(const std::vector<double>& heights) {
             "--heights: heights must rise");
 }
 
-void refuse_turn(const GeometryRequest& geometry) {
+void refuse_turn(const Request& request) {
+  const GeometryRequest& geometry = request.geometry;
   refuse_if(geometry.turn != 0 && geometry.axis == kAutomaticAxis,
             "--axis auto turns the part itself, if it must; not with --turn");
+  refuse_if(request.supports && geometry.axis == kAutomaticAxis,
+            "--supports needs an axis, not --axis auto");
+  refuse_if(request.supports && !request.job.heights.empty(),
+            "--supports needs layers, not --heights");
 }
 
 void refuse_part(const DesignRequest& design) {
@@ -178,7 +183,7 @@ void validate(const Request& request) {
   require_word("--language", kLanguageWords, request.design.language);
   require_heights(request.job.heights);
   refuse_contradictions(request.job);
-  refuse_turn(request.geometry);
+  refuse_turn(request);
   refuse_part(request.design);
   refuse_misfits(request);
 }

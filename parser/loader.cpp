@@ -194,6 +194,7 @@ ast::Program Loader::parse_file(const std::string& path, std::string text,
 
 ast::Program Loader::load_text(const std::string& path, std::string text,
                                bool is_implied) {
+  text += appended_;
   ast::Program program = parse_file(path, std::move(text), nullptr, is_implied);
   load_uses(program);
   return program;

@@ -43,6 +43,9 @@ class Loader {
   void set_language(Language language) { language_ = language; }
   Language language() const { return language_; }
 
+  // What follows the text of the design to come, before the definitions.
+  void append(std::string text) { appended_ = std::move(text); }
+
   // Reads and parses a design, its includes and all files that it uses.
   // Throws FileError if it cannot be read, AccessError where it or a file that
   // it names may not be, SyntaxError if it has errors (they are already
@@ -107,6 +110,7 @@ class Loader {
   Diagnostics& diagnostics_;
   std::vector<std::string> folders_;
   std::string definitions_;
+  std::string appended_;
   const FileAccess& access_;
   Language language_ = Language::k2021;
   std::vector<std::string> files_;

@@ -44,6 +44,7 @@ std::unique_ptr<Command> make_inspect_command();
 std::unique_ptr<Command> make_materials_command();
 std::unique_ptr<Command> make_parts_command();
 std::unique_ptr<Command> make_printers_command();
+std::unique_ptr<Command> make_supports_command();
 std::unique_ptr<Command> make_view_command();
 
 struct NamedCommand {
@@ -61,6 +62,7 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"materials", make_materials_command},
     NamedCommand{"parts", make_parts_command},
     NamedCommand{"printers", make_printers_command},
+    NamedCommand{"supports", make_supports_command},
     NamedCommand{"view", make_view_command}};
 
 }  // namespace lamina::cli

@@ -40,6 +40,7 @@ Usage:
   lamina inspect FILE [OPTION]...         list layers, measure and weigh them
   lamina compare A B [OPTION]...          compare two files or designs
   lamina view FILE -o PICTURE.png         draw a layer file or a design
+  lamina supports DESIGN -o NEW.scad      write it with supports, as a design
   lamina parts FILE                       list the parts of a CAD file or a 3MF
   lamina config [DESIGN]                  show your own defaults of options
   lamina printers                         list the printers that lamina knows
@@ -85,10 +86,11 @@ Slicing (lengths in millimetres):
                       thicknesses in multiples of --layer
   --axis AXIS         direction of building: z, x, y, -x, -y, -z, or auto: the
                       one that fits and has the fewest steps [z]
+  --supports          add supports; =light for tips of 0.25 mm, =medium 0.3,
+                      =heavy 0.4, or a diameter [medium]
   --place-on-bed      put the lowest point of the design at height 0
   --scale FACTOR      enlarge the print, by 1.02 where casting shrinks [1]
-  --compensate MM     move contours into the solid by half the width of the
-                      beam; negative: out of it [0]
+  --compensate MM     move contours into the solid by half the beam's width [0]
 
 Checks:
   --min-feature MM    report walls and gaps thinner than this

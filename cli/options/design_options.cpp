@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -25,6 +26,17 @@ std::vector<std::string> texts(const Words& words) {
 // As slicer::FindingKind.
 constexpr std::array<std::string_view, slicer::kFindingKinds> kFindingWords = {
     "islands", "loose-parts", "overhangs", "suction-cups", "resin-traps"};
+
+// The diameter of a support's tip [mm]; "true" where no size was given.
+double tip_of(const std::string& size) {
+  if (size == "light") return 0.25;
+  if (size == "medium" || size == "true") return 0.3;
+  if (size == "heavy") return 0.4;
+  const std::optional<double> tip = parse_number(size);
+  require(tip && *tip >= 0.1 && *tip <= 2, "--supports",
+          "light, medium, heavy or 0.1 to 2 (mm) was expected, not '{}'", size);
+  return *tip;
+}
 
 // words  "islands,loose-parts", "all"
 void add_findings(const std::string& words, slicer::PrintRules& rules) {
@@ -128,6 +140,9 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
       "--axis", texts(compiler::kAxisWords),
       [&](const std::string& axis) { request.geometry.axis = axis; });
   options.number("--turn", "degrees", request.geometry.turn);
+  options.flag("--supports", [&request](const std::string& size) {
+    request.supports = slicer::SupportSizes{.tip = tip_of(size)};
+  });
   options.flag("--place-on-bed", request.geometry.is_placed_on_bed);
   options.choice(
       "--contour", {"faithful", "paper"}, [&](const std::string& mode) {

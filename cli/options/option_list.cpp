@@ -140,6 +140,10 @@ Option OptionList::flag(const std::string& name, std::string& target) {
   return Option(*app_->add_flag(name, target));
 }
 
+Option OptionList::flag(const std::string& name, const Use& use) {
+  return Option(*app_->add_flag(name, unused_)->each(use));
+}
+
 Option OptionList::flag(const std::string& name,
                         const std::function<void()>& use) {
   return Option(*app_->add_flag_callback(name, use));

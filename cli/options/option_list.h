@@ -70,6 +70,7 @@ class OptionList {
   Option flag(const std::string& name, bool& target);
   // A value may follow a '=', as in --render=cgal; "true" without one.
   Option flag(const std::string& name, std::string& target);
+  Option flag(const std::string& name, const Use& use);
   Option flag(const std::string& name, const std::function<void()>& use);
 
   // An option whose text `use` reads; `value` is what messages call the text.
@@ -138,6 +139,7 @@ class OptionList {
 
  private:
   std::unique_ptr<CLI::App> app_;
+  std::string unused_;  // texts of flags that are read otherwise
 };
 
 }  // namespace lamina::cli

@@ -184,6 +184,12 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
     json["print"] = print_json(*report.slice.print, report.lines.findings);
   }
   json.update(machine_json(report.machine, report.estimate));
+  if (report.supports) {
+    json["supports"] = {{"count", report.supports->supports.size()},
+                        {"on_part", report.supports->count_on_part()},
+                        {"unheld", report.supports->unheld.size()},
+                        {"tip_mm", report.supports->sizes.tip}};
+  }
   if (settings.min_feature > 0) {
     json["min_feature_mm"] = number(settings.min_feature);
     json["features"] = features_json(report, settings.min_feature);
@@ -215,6 +221,10 @@ std::string print_line(const compiler::Report& report,
                 : fmt::format("\nprint: {}", counts);
 }
 
+std::string supports_line(const compiler::Report& report) {
+  return report.supports ? "\n" + size_text(*report.supports) : "";
+}
+
 std::string machine_line(const compiler::Report& report) {
   const std::string text =
       slicer::estimate_text(report.machine, report.estimate);
@@ -229,7 +239,7 @@ std::string summary_line(const compiler::Compilation& compilation,
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
-      "{}: {}, {}, {}, {}{}{}{}{}\n"
+      "{}: {}, {}, {}, {}{}{}{}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, graph {:.3f}, output {:.3f}), {} of "
       "memory, {:.3f} s by the clock",
@@ -239,7 +249,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       memory_text(report.output_bytes),
       slice.box.is_empty() ? "" : ", " + size_text(slice.box.size()),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
-      machine_line(report), print_line(report, check),
+      machine_line(report), supports_line(report), print_line(report, check),
       process_seconds() - earlier_seconds, report.load_seconds,
       report.evaluate_seconds, report.lower_seconds, section_seconds(report),
       slice.sweep_seconds, slice.graph_seconds, slice.output_seconds,

@@ -1,0 +1,66 @@
+#pragma once
+// Supports of a part: where it must be held, and the way of each support down.
+//
+// A support is a **head**, a cone whose tip touches the part in a **contact**;
+// a **pillar**, straight down or leaning by 45° until the way down is free; and
+// a **foot** on the bed. Where no way leads to the bed, the pillar ends in a
+// second tip on the part itself.
+//
+// A contact holds what is near. After PrusaSlicer 2.9, whose makers found it in
+// test prints, that is 3.2 mm in the layer of a contact with a tip of 0.4 mm,
+// and more above it: see hold_radius().
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "slicer/contour/layer.h"
+
+namespace lamina::slicer {
+
+// All in mm.
+struct SupportSizes {
+  double tip = 0.3;           // diameter where it touches the part
+  double penetration = 0.15;  // of the tip into the part
+  double head = 2.5;          // length of the cone, at most
+  double pillar = 1;          // diameter
+  double foot = 3;            // diameter on the bed
+  double foot_height = 1;
+  double lift = 5;         // of the part over the bed
+  double clearance = 0.5;  // between the part and all but the tips
+};
+
+// How far from a contact it holds the part [mm].
+//
+// tip     diameter [mm]
+// height  above the contact [mm]
+double hold_radius(double tip, double height);
+
+struct Support {
+  Vec3 contact = Vec3(0);  // the middle of the tip
+  // From inside the tip down: the end of the head, bends, the lowest point.
+  std::vector<Vec3> path;
+  bool stands_on_part = false;
+};
+
+struct SupportPlan {
+  SupportSizes sizes;
+  double bed = 0;  // height of the bed below the part [mm]
+  std::vector<Support> supports;
+  // Places that must be held and to which no way was found.
+  std::vector<Vec3> unheld;
+
+  // Supports that stand on the part.
+  std::size_t count_on_part() const;
+};
+
+// "7 supports, 1 of them on the part"
+std::string size_text(const SupportPlan& plan);
+
+// layers  of the whole part, in ascending order
+SupportPlan plan_supports(std::span<const Layer> layers,
+                          const SupportSizes& sizes);
+
+}  // namespace lamina::slicer
