@@ -62,9 +62,8 @@ Output:
                         .zip .nanodlp    images for printers with NanoDLP
                         .slices.3mf      a stack of slices
                         .layers.json     layers as JSON, in full precision
-                        .csg .echo .ast .param
-                                         CSG tree, echoes, syntax tree,
-                                         parameters as JSON
+                        .csg .echo .ast  CSG tree, echoes, syntax tree
+                        .param           the parameters, as JSON
   --printer P         the printer, by name or a part of it ('lamina printers'),
                       or by profile: fit, printing time, pixels
   --material M        the resin or wax, likewise ('lamina materials'): exposure,
@@ -82,8 +81,7 @@ Design:
 
 Slicing (lengths in millimetres):
   --layer MM          thickness of a layer [0.05]
-  --adaptive CUSP     adaptive layers: steps on the surface no larger than CUSP,
-                      thicknesses in multiples of --layer
+  --adaptive CUSP     adaptive layers, with steps on the surface of CUSP at most
   --axis AXIS         direction of building: z, x, y, -x, -y, -z, or auto: the
                       one that fits and has the fewest steps [z]
   --supports          add supports; =light for tips of 0.25 mm, =medium 0.3,
