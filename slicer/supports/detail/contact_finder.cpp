@@ -15,11 +15,9 @@
 namespace lamina::slicer::detail {
 namespace {
 
-// How near to each other contacts below an island stand, as a share of the
-// radius in which each of them holds.
-constexpr double kIslandShare = 0.75;
-// Ledges are asked in places only; between them all is held, too.
-constexpr double kLedgeShare = 0.85;
+// Parts are asked in places only; between them all is held, too: within this
+// share of the radius in which a contact holds.
+constexpr double kShare = 0.85;
 
 // Contours are asked every so many mm, and ledges that reach out farther than
 // kWideLedge on a grid of kGrid.
@@ -257,7 +255,7 @@ class Finder {
     };
     std::ranges::stable_sort(wishes, {}, rank);
     for (const Wish& wish : wishes) {
-      if (is_held(wish, height, is_island, near)) continue;
+      if (is_held(wish, height, near)) continue;
       near.push_back(static_cast<std::uint32_t>(contacts_.size()));
       contacts_.push_back({Vec3(wish.place, height), away_from(i, wish),
                            is_island || wish.out > least});
@@ -265,16 +263,15 @@ class Finder {
   }
 
   // What stands near the part below needs less, the higher that has grown.
-  bool is_held(const Wish& wish, double height, bool is_island,
+  bool is_held(const Wish& wish, double height,
                const std::vector<std::uint32_t>& near) const {
     const double least = hold_radius(sizes_.tip, 0);
-    const double share = is_island ? kIslandShare : kLedgeShare;
     return std::ranges::any_of(near, [&](std::uint32_t number) {
       const Vec3 contact = contacts_[number].place;
       const double radius = wish.out > least
                                 ? least
                                 : hold_radius(sizes_.tip, height - contact.z);
-      return glm::distance(Vec2(contact), wish.place) <= share * radius;
+      return glm::distance(Vec2(contact), wish.place) <= kShare * radius;
     });
   }
 
