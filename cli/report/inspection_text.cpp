@@ -38,7 +38,7 @@ std::vector<Material> weighed_materials() {
 using nlohmann::ordered_json;
 
 // Layers listed of a long file.
-constexpr std::size_t kListedLayers = 24;
+constexpr std::size_t kListedLayers = 20;
 
 struct Totals {
   std::size_t loops = 0;

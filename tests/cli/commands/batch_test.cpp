@@ -92,7 +92,7 @@ TEST(Batch, ItsReportAddsUp) {
   batch("r.json");
   const auto json = nlohmann::json::parse(read_file(folder.file("r.json")));
   for (const auto& [column, member] :
-       {std::pair("grams", "grams"), std::pair("volume_mm3", "volume_mm3"),
+       {std::pair("metal_grams", "metal_grams"), std::pair("volume_mm3", "volume_mm3"),
         std::pair("print_seconds", "print_seconds")}) {
     EXPECT_NEAR(std::stod(cell(1, column)) + std::stod(cell(3, column)),
                 json.at(member).get<double>(), 1e-6)
@@ -455,8 +455,8 @@ TEST(Batch, ReportsEveryPieceAsATable) {
   EXPECT_EQ(rows[1].cells.at(3), "40");
   EXPECT_EQ(rows[1].cells.at(6), "2");   // z
   EXPECT_EQ(rows[1].cells.at(7), "8");   // volume
-  EXPECT_EQ(rows[1].cells.at(12), "0");  // warnings
-  EXPECT_TRUE(has(rows[2].cells.at(14), "large, too"));
+  EXPECT_EQ(rows[1].cells.at(14), "0");  // warnings
+  EXPECT_TRUE(has(rows[2].cells.at(16), "large, too"));
 }
 
 TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {

@@ -142,11 +142,11 @@ TEST(Inspect, WeighsThePart) {
   ASSERT_EQ(run(folder, {"a.scad", "--layer", "0.5"}).status, 0);
   const json found = inspected(folder, {"a.slc"});
   const json& weights = found.at("weight_g");
-  EXPECT_NEAR(weights.at("gold 18k yellow").get<double>(), 13.475, 1e-4);
-  EXPECT_NEAR(weights.at("sterling silver").get<double>(), 9.065, 1e-4);
+  EXPECT_NEAR(weights.at("yellow gold 750 (18 k)").get<double>(), 13.475, 1e-4);
+  EXPECT_NEAR(weights.at("sterling silver (925)").get<double>(), 9.065, 1e-4);
   EXPECT_NEAR(weights.at("platinum 950").get<double>(), 18.1125, 1e-4);
   const auto text = run(folder, {"inspect", "a.slc"}).output;
-  EXPECT_TRUE(has(text, "13.475 g  gold 18k yellow (15.4 g/cm³)")) << text;
+  EXPECT_TRUE(has(text, "13.475 g  yellow gold 750 (18 k) (15.4 g/cm³)")) << text;
 }
 
 TEST(Inspect, AllFormatsAndTheDesignItselfTellTheSame) {
