@@ -268,7 +268,7 @@ class Finder {
     const double least = hold_radius(sizes_.tip, 0);
     return std::ranges::any_of(near, [&](std::uint32_t number) {
       const Vec3 contact = contacts_[number].place;
-      const double radius = wish.out > least
+      const double radius = wish.out > kShare * least
                                 ? least
                                 : hold_radius(sizes_.tip, height - contact.z);
       return glm::distance(Vec2(contact), wish.place) <= kShare * radius;

@@ -115,6 +115,8 @@ TEST(Supports, HoldWhatHangs) {
            "rotate([90, 0, 0]) difference() { cylinder(r = 10, h = 6, "
            "center = true, $fn = 90); cylinder(r = 8.5, h = 7, center = true, "
            "$fn = 90); }",
+           "translate([0, 0, 8]) cube([14, 14, 2]); "
+           "translate([4, 4, 0]) cube([3, 3, 9]);",
            "difference() { cube(20); translate([2, -1, 2]) "
            "cube([16, 22, 16]); }",
        }) {
