@@ -1,6 +1,7 @@
 #include "slicer/supports/detail/layer_solids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "plane/predicates.h"
@@ -39,7 +40,8 @@ bool LayerSolids::is_free(std::size_t i, Vec2 place, double distance) const {
   }
   double nearest = distance;
   std::size_t edge = 0;
-  asked.edges.lower(place, distance, nearest, edge);
+  // Any edge that is nearer will do.
+  asked.edges.lower(place, std::nextafter(distance, 0), nearest, edge);
   return nearest >= distance && asked.edges.winding_number(place) == 0;
 }
 

@@ -161,7 +161,7 @@ TEST(Supports, KeepTheLawsOfRandomParts) {
   const auto number = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i < 60; ++i) {
     std::string part = "cube([4, 4, 12]);";
     for (int k = 0; k < 4; ++k) {
       part += fmt::format(
