@@ -5,8 +5,10 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -67,6 +69,9 @@ struct Compilation {
   // Stack that evaluation may use below the caller's frame.
   std::size_t evaluation_stack = csg::EvaluateOptions().stack_bytes;
   Progress on_progress;
+  // Called as a pass before the layers begins, "evaluating", and with nothing
+  // before a text is written.
+  std::function<void(std::string_view)> on_pass = [](std::string_view) {};
 
   SourceStore sources;
   Diagnostics diagnostics;

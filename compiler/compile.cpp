@@ -70,7 +70,9 @@ void add_supports(Compilation& c) {
 }
 
 void load_design(Compilation& c) {
+  if (c.request.supports) c.on_pass("finding supports");
   add_supports(c);
+  c.on_pass("reading");
   c.design = timed(c.report.load_seconds, [&] {
     return load(c.request.design, c.loader, c.diagnostics);
   });
@@ -78,6 +80,7 @@ void load_design(Compilation& c) {
 }
 
 void evaluate_design(Compilation& c) {
+  c.on_pass("evaluating");
   const std::size_t errors = c.count(Severity::kError);
   c.tree = timed(c.report.evaluate_seconds, [&] {
     return evaluate(c.design, c.request, c.loader, c.readers,
@@ -137,6 +140,7 @@ std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
 
 // Writes a text instead of layers, and the rule.
 void write_text(const Compilation& c, std::string_view text, OutputFile* rule) {
+  c.on_pass("");
   write_file(c.request.output.path, text, c.temporary_files);
   if (rule != nullptr) rule->commit();
 }
@@ -236,6 +240,7 @@ bool make_tree(Compilation& c) {
 }
 
 csg::Lowered lower_tree(Compilation& c) {
+  c.on_pass("making the solid");
   csg::Lowered lowered = timed(c.report.lower_seconds, [&] {
     return lower(c.tree, c.request, c.report.machine, c.readers, c.diagnostics);
   });
@@ -254,6 +259,7 @@ slicer::SliceReport make_layers(Compilation& c, const csg::Lowered& lowered,
                                 const slicer::Settings& settings,
                                 slicer::LayerSink& sink) {
   // Plan: all layers must be known before the first one is cut.
+  c.on_pass("planning layers");
   const ldni::LayerGrid grid = timed(c.report.plan_seconds, [&] {
     return explained(c, [&] { return plan(lowered, settings); });
   });

@@ -95,6 +95,10 @@ void ProgressLine::begin(std::uint64_t total, std::string_view unit) {
   next_ = begin_ + kDelay;
 }
 
+void ProgressLine::say(std::string_view words) {
+  if (is_wanted_) draw(fmt::format("{} ...", words));
+}
+
 void ProgressLine::show(std::uint64_t done) {
   if (!is_wanted_) return;
   const Clock::time_point now = Clock::now();
@@ -103,7 +107,10 @@ void ProgressLine::show(std::uint64_t done) {
   progress_.done = done;
   progress_.seconds = std::chrono::duration<double>(now - begin_).count();
   // In the last column the cursor would go on to the next line.
-  const std::string text = progress_text(progress_, terminal_width() - 1);
+  draw(progress_text(progress_, terminal_width() - 1));
+}
+
+void ProgressLine::draw(const std::string& text) {
   const std::string line = fmt::format("\r{:<{}}", text, drawn_);
   const std::lock_guard lock(drawing);
   std::fwrite(line.data(), 1, line.size(), stderr);

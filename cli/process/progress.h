@@ -31,6 +31,9 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
+  // Says what is done before there is something to count.
+  void say(std::string_view words);
+
   // Begins to count the time, and says what is counted.
   void begin(std::uint64_t total, std::string_view unit);
 
@@ -43,6 +46,8 @@ class ProgressLine {
   void erase();
 
  private:
+  void draw(const std::string& text);
+
   using Clock = std::chrono::steady_clock;
 
   bool is_wanted_;

@@ -14,8 +14,8 @@
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/process/exit_status.h"
-#include "cli/process/streams.h"
 #include "cli/process/process_watch.h"
+#include "cli/process/streams.h"
 
 namespace lamina::cli {
 namespace {
@@ -64,6 +64,9 @@ Session::Session(const compiler::Request& request, bool is_quiet,
                     terminal.show(d, ends_run(d, compilation));
                   }) {
   compilation.evaluation_stack = std::min(context.stack / 2, kEvaluationStack);
+  compilation.on_pass = [this](std::string_view pass) {
+    pass.empty() ? terminal.progress().erase() : terminal.progress().say(pass);
+  };
   compilation.on_progress = [this](std::uint64_t done, std::uint64_t all) {
     ProgressLine& line = terminal.progress();
     if (done == 0) line.begin(all, "layers");

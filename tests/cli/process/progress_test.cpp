@@ -82,6 +82,19 @@ TEST_F(Progress, IsShownOnATerminalAndErasedAtTheEnd) {
   EXPECT_EQ(last_line(result.output), "");
 }
 
+TEST_F(Progress, SaysWhatIsDoneBeforeTheFirstLayer) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "for (i = [0 : 9e5]) let (x = i) if (x < 0) cube(1);"
+               "cube(1);");
+  const auto result =
+      support::run_on_terminal(command({"a.scad"}), folder.path());
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.output.find("\revaluating ..."), std::string::npos)
+      << result.output;
+  EXPECT_EQ(last_line(result.output), "");
+}
+
 TEST_F(Progress, IsNotForPipesQuietRunsAndShortOnes) {
   const TemporaryFolder folder;
   std::vector<std::string> words = long_run(folder);
