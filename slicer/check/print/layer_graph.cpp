@@ -18,11 +18,6 @@ namespace {
 
 constexpr std::uint32_t kOpen = 0;  // component of the outside
 
-// An island no larger than this that the next layer joins is the lowest part of
-// a curve [mm²]: six pixels square of a usual printer. What it lacks is
-// hardened through the layer that joins it.
-constexpr double kPeakArea = 0.1;
-
 // Overhangs smaller than this, and nearer to what holds them, are no ledges
 // [mm², mm].
 constexpr double kLeastOverhangArea = 0.05;

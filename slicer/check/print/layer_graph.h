@@ -45,6 +45,11 @@
 
 namespace lamina::slicer {
 
+// An island no larger than this that the next layer joins is the lowest part of
+// a curve [mm²]: six pixels square of a usual printer. What it lacks is
+// hardened through the layer that joins it.
+inline constexpr double kPeakArea = 0.1;
+
 // "island", "loose part", …
 std::string_view name_of(FindingKind kind);
 

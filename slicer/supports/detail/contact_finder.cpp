@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <tuple>
 
 #include <glm/geometric.hpp>
@@ -24,10 +23,6 @@ constexpr double kShare = 0.85;
 constexpr double kStep = 0.5;
 constexpr double kWideLedge = 1.5;
 constexpr double kGrid = 0.5;
-
-// An island no larger than this that the next layer joins to its neighbours is
-// the lowest part of a curve [mm²]; see layer_graph.cpp.
-constexpr double kPeakArea = 0.1;
 
 // A place that must be within reach of a contact.
 struct Wish {
@@ -226,11 +221,8 @@ class Finder {
   Vec2 inwards(std::size_t i, Vec2 place) const {
     Vec2 best = place;
     double deepest = 0;
-    constexpr int kDirections = 16;
-    for (int k = 0; k < kDirections; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kDirections;
-      const Vec2 inner =
-          place + sizes_.tip / 2 * Vec2(std::cos(angle), std::sin(angle));
+    for (int k = 0; k < kSides; ++k) {
+      const Vec2 inner = place + sizes_.tip / 2 * side(k);
       const double depth = solids_.depth(i, inner);
       if (depth <= deepest + 1e-6) continue;
       deepest = depth;

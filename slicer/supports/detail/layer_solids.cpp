@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "plane/predicates.h"
 
 namespace lamina::slicer::detail {
+
+Vec2 side(int k) {
+  const double angle = 2 * std::numbers::pi * k / kSides;
+  return {std::cos(angle), std::sin(angle)};
+}
 
 LayerSolids::LayerSolids(std::span<const Layer> layers) : layers_(layers) {
   solids_.reserve(layers.size());

@@ -11,6 +11,11 @@
 
 namespace lamina::slicer::detail {
 
+// The sides to which one looks from a place, in equal steps: side k as a
+// direction of length 1.
+inline constexpr int kSides = 16;
+Vec2 side(int k);
+
 class LayerSolids {
  public:
   // layers  must outlive it

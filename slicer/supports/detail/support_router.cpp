@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
 namespace lamina::slicer::detail {
 namespace {
 
-// A pillar that leans does so by 45°, to one of so many sides, and no farther
-// than this [mm], in such steps.
-constexpr int kSides = 16;
+// A pillar that leans does so by 45°, and no farther than this [mm], in such
+// steps.
 constexpr double kFarthest = 12;
 constexpr double kSidestep = 0.5;
 
@@ -19,11 +17,6 @@ constexpr double kSidestep = 0.5;
 constexpr double kShortestHead = 0.75;
 
 Vec2 flat(Vec3 place) { return {place.x, place.y}; }
-
-Vec2 side(int k) {
-  const double angle = 2 * std::numbers::pi * k / kSides;
-  return {std::cos(angle), std::sin(angle)};
-}
 
 }  // namespace
 
@@ -122,8 +115,7 @@ bool SupportRouter::add_way_to_bed(Support& support) const {
 // Straight down to the first layer that is in the way, where a tip can stand.
 bool SupportRouter::add_way_to_part(Support& support) const {
   const Vec3 from = support.path.back();
-  for (std::size_t i = std::min(solids_.layer_above(from.z), solids_.count());
-       i-- > 0;) {
+  for (std::size_t i = solids_.layer_above(from.z); i-- > 0;) {
     if (solids_.depth(i, flat(from)) < sizes_.tip / 2) continue;
     const double top = solids_.layer(i).top;
     const double length = std::min(sizes_.head, (from.z - top) / 2);
