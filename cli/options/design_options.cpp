@@ -187,8 +187,7 @@ void add_print_options(OptionList& options, compiler::Request& request) {
   options.number("--min-feature", "length", request.job.min_feature);
   options.number("--self-supporting", "length", rules.self_supporting);
   options.texts(
-      "--fail-on",
-      "{islands,loose-parts,overhangs,suction-cups,resin-traps,all}",
+      "--fail-on", fmt::format("{{{},all}}", fmt::join(kFindingWords, ",")),
       [&rules](const std::string& words) { add_findings(words, rules); });
 }
 

@@ -14,6 +14,7 @@
 
 #include "base/diagnostic.h"
 #include "base/similar.h"
+#include "base/text.h"
 #include "compiler/validate.h"
 #include "slicer/formats/output_format.h"
 
@@ -40,13 +41,6 @@ std::string user_folder() {
   return home == nullptr ? "" : (fs::path(home) / ".config").string();
 }
 
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
-
 // A profile beside the file of settings is meant, wherever lamina runs.
 std::string in_folder_of(const std::string& file, const std::string& value) {
   const bool is_profile =
@@ -57,13 +51,13 @@ std::string in_folder_of(const std::string& file, const std::string& value) {
 // No value where the line is empty or a comment.
 std::optional<UserSetting> read_line(const std::string& file, unsigned number,
                                      const std::string& line) {
-  const std::string text = trimmed(line.substr(0, line.find('#')));
+  const std::string_view text =
+      trim(std::string_view(line).substr(0, line.find('#')));
   if (text.empty()) return std::nullopt;
   const std::string place = fmt::format("{}:{}", file, number);
-  const std::size_t equals = text.find('=');
-  const std::string name = trimmed(text.substr(0, equals));
-  const std::string value =
-      equals == std::string::npos ? "" : trimmed(text.substr(equals + 1));
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string_view name = trim(text.substr(0, equals));
+  const std::string value(trim(text.substr(std::min(equals + 1, text.size()))));
   const auto* const known = std::ranges::find(kNames, name);
   if (known == kNames.end()) {
     const std::string hint = did_you_mean(name, kNames);
