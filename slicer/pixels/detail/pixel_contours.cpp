@@ -87,62 +87,35 @@ class Stitcher {
     };
     const bool joins =
         upper_left + upper_right + lower_left + lower_right > 4 * kHalf;
-    // White lies to the left as seen with y upwards.
-    switch (kind) {
-      case 1:
-        add(0, 3);
-        break;
-      case 2:
-        add(1, 0);
-        break;
-      case 3:
-        add(1, 3);
-        break;
-      case 4:
-        add(2, 1);
-        break;
-      case 5:
-        if (joins) {
-          add(0, 1);
-          add(2, 3);
-        } else {
-          add(0, 3);
-          add(2, 1);
-        }
-        break;
-      case 6:
-        add(2, 0);
-        break;
-      case 7:
-        add(2, 3);
-        break;
-      case 8:
-        add(3, 2);
-        break;
-      case 9:
-        add(0, 2);
-        break;
-      case 10:
-        if (joins) {
-          add(1, 2);
-          add(3, 0);
-        } else {
-          add(1, 0);
-          add(3, 2);
-        }
-        break;
-      case 11:
-        add(1, 2);
-        break;
-      case 12:
-        add(3, 1);
-        break;
-      case 13:
-        add(0, 1);
-        break;
-      default:
-        add(3, 0);
-        break;
+    // White lies to the left as seen with y upwards. By kind: two opposite
+    // corners, 5 and 10, have two steps.
+    struct Sides {
+      std::size_t to;
+      std::size_t from;
+    };
+    constexpr std::array<Sides, 15> kSteps = {{{0, 0},
+                                               {0, 3},
+                                               {1, 0},
+                                               {1, 3},
+                                               {2, 1},
+                                               {0, 0},
+                                               {2, 0},
+                                               {2, 3},
+                                               {3, 2},
+                                               {0, 2},
+                                               {0, 0},
+                                               {1, 2},
+                                               {3, 1},
+                                               {0, 1},
+                                               {3, 0}}};
+    if (kind == 5) {
+      add(0, joins ? 1 : 3);
+      add(2, joins ? 3 : 1);
+    } else if (kind == 10) {
+      add(1, joins ? 2 : 0);
+      add(3, joins ? 0 : 2);
+    } else {
+      add(kSteps[kind].to, kSteps[kind].from);
     }
   }
 
