@@ -49,19 +49,15 @@ auto explained(const Compilation& c, const Work& work) {
     fault.hints = c.emptiness;
     throw GeometryError(std::move(fault));
   } catch (const slicer::TooLarge& large) {
-    const slicer::Printer& printer = *c.report.machine.printer;
-    const std::string options =
-        options_that_fit(printer, c.request.geometry, large.size);
-    if (options.empty()) throw;
-    throw GeometryError(fmt::format("{}; with {} it fits",
-                                    slicer::too_large_text(printer, large.size),
-                                    options));
+    throw GeometryError(too_large_text(*c.report.machine.printer,
+                                       c.request.geometry, large.size));
   }
 }
 
 // Slices the design without supports to see where they must stand.
 void add_supports(Compilation& c) {
   if (!c.request.supports) return;
+  c.on_pass("finding supports");
   c.report.supports =
       plan_supports(c.request, c.evaluation_stack, c.temporary_files);
   if (!c.report.supports) return;
@@ -70,7 +66,6 @@ void add_supports(Compilation& c) {
 }
 
 void load_design(Compilation& c) {
-  if (c.request.supports) c.on_pass("finding supports");
   add_supports(c);
   c.on_pass("reading");
   c.design = timed(c.report.load_seconds, [&] {

@@ -45,8 +45,8 @@ void add_price(const slicer::Price& price, Machine& machine) {
   (is_for_metal ? machine.metal : machine.material)->price = price;
 }
 
-}  // namespace
-
+// The options with which a part that is too large would fit; empty where none
+// help.
 std::string options_that_fit(const slicer::Printer& printer,
                              const GeometryRequest& geometry, Vec3 size) {
   // A box that is turned by other angles is not the part's.
@@ -69,6 +69,17 @@ std::string options_that_fit(const slicer::Printer& printer,
     }
   }
   return {};
+}
+
+}  // namespace
+
+std::string too_large_text(const slicer::Printer& printer,
+                           const GeometryRequest& geometry, Vec3 size) {
+  const std::string options = options_that_fit(printer, geometry, size);
+  return options.empty()
+             ? slicer::TooLarge(printer, size).what()
+             : fmt::format("{}; with {} it fits",
+                           slicer::too_large_text(printer, size), options);
 }
 
 Machine choose_machine(const OutputRequest& request, const FileAccess& access) {

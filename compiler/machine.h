@@ -16,11 +16,12 @@ using slicer::Machine;
 // opened, and where a material is not of the kind that is asked for.
 Machine choose_machine(const OutputRequest& request, const FileAccess& access);
 
-// The options with which a part that is too large for the printer would fit,
-// such as "--axis x --turn 90"; empty where none help.
+// Says that a part is too large for the printer, and with which options, such
+// as
+// "--axis x --turn 90", or on which printers it would fit.
 //
 // size  of the part as `geometry` has it stand [mm]
-std::string options_that_fit(const slicer::Printer& printer,
-                             const GeometryRequest& geometry, Vec3 size);
+std::string too_large_text(const slicer::Printer& printer,
+                           const GeometryRequest& geometry, Vec3 size);
 
 }  // namespace lamina::compiler

@@ -130,14 +130,10 @@ class CheckCommand : public Command {
     if (slicer::fits(printer, size)) {
       return fmt::format("fits: {} on {}\n", size_text(size), printer.title);
     }
-    const std::string options =
-        is_design ? compiler::options_that_fit(printer, request.geometry, size)
-                  : "";
-    return options.empty()
-               ? fmt::format("does not fit: {}\n",
-                             slicer::TooLarge(printer, size).what())
-               : fmt::format("does not fit: {}; with {} it fits\n",
-                             slicer::too_large_text(printer, size), options);
+    return fmt::format(
+        "does not fit: {}\n",
+        is_design ? compiler::too_large_text(printer, request.geometry, size)
+                  : slicer::TooLarge(printer, size).what());
   }
 
   std::string text_of(const compiler::Inspection& inspection,
