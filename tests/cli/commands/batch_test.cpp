@@ -92,7 +92,8 @@ TEST(Batch, ItsReportAddsUp) {
   batch("r.json");
   const auto json = nlohmann::json::parse(read_file(folder.file("r.json")));
   for (const auto& [column, member] :
-       {std::pair("metal_grams", "metal_grams"), std::pair("volume_mm3", "volume_mm3"),
+       {std::pair("metal_grams", "metal_grams"),
+        std::pair("volume_mm3", "volume_mm3"),
         std::pair("print_seconds", "print_seconds")}) {
     EXPECT_NEAR(std::stod(cell(1, column)) + std::stod(cell(3, column)),
                 json.at(member).get<double>(), 1e-6)

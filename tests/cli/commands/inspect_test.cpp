@@ -146,7 +146,8 @@ TEST(Inspect, WeighsThePart) {
   EXPECT_NEAR(weights.at("sterling silver (925)").get<double>(), 9.065, 1e-4);
   EXPECT_NEAR(weights.at("platinum 950").get<double>(), 18.1125, 1e-4);
   const auto text = run(folder, {"inspect", "a.slc"}).output;
-  EXPECT_TRUE(has(text, "13.475 g  yellow gold 750 (18 k) (15.4 g/cm³)")) << text;
+  EXPECT_TRUE(has(text, "13.475 g  yellow gold 750 (18 k) (15.4 g/cm³)"))
+      << text;
 }
 
 TEST(Inspect, AllFormatsAndTheDesignItselfTellTheSame) {
