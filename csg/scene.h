@@ -83,6 +83,7 @@ struct Instance {
   Box3 box;           // in the world, of the transformed vertices
   SourceRange range;  // of the module call that made the leaf
   const CallSite* caller = nullptr;
+  float support_tip = kNoSupportTip;  // as of the node
 };
 
 struct Scene {

@@ -31,6 +31,10 @@ struct CallSite {
   SourceRange range;                 // of the call
 };
 
+// How `$support` asks for supports below a leaf: the diameter of their tips
+// [mm], 0 for none, and this where it says nothing.
+inline constexpr float kNoSupportTip = -1;
+
 // $fn, $fa, $fs, $fe as in force where the module was called.
 struct Facets {
   double fn = 0;
@@ -241,9 +245,10 @@ struct Node {
   std::span<const Node* const> children;
   SourceRange range;
   const CallSite* caller = nullptr;
-  bool is_root = false;        // !
-  bool is_highlight = false;   // #
-  bool is_background = false;  // %
+  float support_tip = kNoSupportTip;  // $support
+  bool is_root = false;               // !
+  bool is_highlight = false;          // #
+  bool is_background = false;         // %
 };
 
 // Owns its nodes. The root is a Group ("group", the implicit top level).

@@ -315,6 +315,7 @@ void Lowerer::place(std::uint32_t leaf, Vec3 size, const Place& at) {
   instance.box = bound(leaf, instance.world_from_leaf);
   instance.range = at.node.range;
   instance.caller = at.node.caller;
+  instance.support_tip = at.node.support_tip;
   builder_.push(instance);
 }
 

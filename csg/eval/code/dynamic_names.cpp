@@ -8,7 +8,7 @@ bool is_dynamic_name(std::string_view name) {
 
 DynamicNames::DynamicNames() {
   for (const char* name : {"$fn", "$fa", "$fs", "$fe", "$t", "$preview", "$vpt",
-                           "$vpr", "$vpd", "$vpf"}) {
+                           "$vpr", "$vpd", "$vpf", "$support"}) {
     number_of(name);
   }
 }

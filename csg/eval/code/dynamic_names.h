@@ -22,6 +22,7 @@ enum WellKnown : std::uint32_t {
   kViewRotation,
   kViewDistance,
   kViewField,
+  kSupport,
 };
 
 // Whether `name` has dynamic scope.

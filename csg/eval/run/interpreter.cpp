@@ -8,6 +8,8 @@
 #include <sanitizer/asan_interface.h>
 
 #include "csg/eval/value/operators.h"
+#include "csg/eval/value/text.h"
+#include "csg/support_tip.h"
 
 namespace lamina::csg {
 
@@ -334,6 +336,25 @@ void Interpreter::fail_leaves(SourceRange range) {
        nullptr);
 }
 
+float Interpreter::support_tip(SourceRange range) {
+  const Value& value = dynamic_[kSupport];
+  if (value.is_undef()) return kNoSupportTip;
+  std::optional<double> tip;
+  if (value.is_string()) tip = support_tip_named(value.as_string());
+  if (value.is_number() &&
+      (value.as_number() == 0 || (value.as_number() >= kLeastSupportTip &&
+                                  value.as_number() <= kGreatestSupportTip))) {
+    tip = value.as_number();
+  }
+  if (tip) return static_cast<float>(*tip);
+  diagnostics_.own_warning(
+      range,
+      fmt::format("$support is {}; expected \"none\", \"light\", \"medium\", "
+                  "\"heavy\" or a number from {:g} to {:g}",
+                  to_echo(value), kLeastSupportTip, kGreatestSupportTip));
+  return kNoSupportTip;
+}
+
 void Interpreter::make_node(decltype(Node::op) op,
                             const InstantiationCode& code, std::size_t mark) {
   if (mark == nodes_.size()) {
@@ -345,6 +366,7 @@ void Interpreter::make_node(decltype(Node::op) op,
   node->children = keep_all(nodes_since(mark));
   node->range = code.range;
   node->caller = current_call;
+  node->support_tip = support_tip(code.range);
   node->is_root = code.modifiers.root;
   node->is_highlight = code.modifiers.highlight;
   node->is_background = code.modifiers.background;

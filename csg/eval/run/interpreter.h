@@ -265,6 +265,8 @@ class Interpreter {
                                const FunctionLiteral& literal);
   // Extends the tables to what resolving brought up.
   void make_room();
+  // The value of `$support` for the tree. Warns where it is not one.
+  float support_tip(SourceRange range);
 
   LazyResolver& resolver_;
   DynamicNames& names_;
