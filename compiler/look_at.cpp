@@ -113,6 +113,7 @@ Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
   Inspection inspection = looker.finish(request.design.path, std::move(exact));
   inspection.lines = find_lines(lowered, report);
   inspection.found.print = std::move(report.print);
+  inspection.found.supports = std::move(report.supports);
   if (settings.min_feature > 0) {
     inspection.found.features = std::move(report.features);
   }

@@ -61,6 +61,12 @@ struct GeometryRequest {
   double decimation = 0;     // of imported meshes [mm]; 0: none
 };
 
+// Lines of the design, "12" or "lib.scad:12", that decide where supports are.
+struct SupportLines {
+  std::vector<std::string> only;     // not empty: below these alone
+  std::vector<std::string> without;  // not below these
+};
+
 // What is written.
 struct OutputRequest {
   std::string path;  // "-": standard output
@@ -91,6 +97,7 @@ struct Request {
   slicer::Settings job;  // how the solid is sliced
   // Supports are added to the design.
   std::optional<slicer::SupportSizes> supports;
+  SupportLines support_lines;
   OutputRequest output;
 };
 

@@ -60,6 +60,12 @@ FoundLines find_lines(const csg::Lowered& lowered,
     found.features.push_back(
         lines_of(*scene, feature.instances[0], feature.instances[1]));
   }
+  if (report.supports) {
+    for (const auto& contact : report.supports->contacts) {
+      found.contacts.push_back(
+          lines_of(*scene, contact.instance, slicer::kNoInstance));
+    }
+  }
   if (!report.print) return found;
   for (const slicer::Finding& finding : report.print->findings) {
     found.findings.push_back(

@@ -29,6 +29,7 @@ using SourceLines = std::vector<SourceLine>;
 struct FoundLines {
   std::vector<SourceLines> features;  // of each of SliceReport::features
   std::vector<SourceLines> findings;  // of each finding of SliceReport::print
+  std::vector<SourceLines> contacts;  // of each of SliceReport::supports
 };
 
 // Nothing for an outline, which has no leaves.

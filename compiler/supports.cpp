@@ -1,9 +1,21 @@
 #include "compiler/supports.h"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
-#include "compiler/look_at.h"
+#include "compiler/compile.h"
+#include "compiler/source_lines.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/plan/orientation.h"
+#include "slicer/slice/leaf_at.h"
+#include "slicer/slice/support_scene.h"
 #include "slicer/supports/support_text.h"
 
 namespace lamina::compiler {
@@ -29,6 +41,96 @@ Affine inverse_of(const Affine& turn) {
           Vec3(turn[0].z, turn[1].z, turn[2].z), Vec3(0)};
 }
 
+std::vector<slicer::Layer> slice_all(const csg::Scene& scene,
+                                     const slicer::Settings& settings) {
+  slicer::LayerList list;
+  Diagnostics unshown;  // the run itself will say it
+  slicer::slice(scene, slicer::plan_layers(scene, settings), settings, list,
+                unshown);
+  return std::move(list.layers);
+}
+
+// "ring.scad:12" for "12", which means the design itself.
+std::vector<std::string> with_files(std::vector<std::string> lines,
+                                    const std::string& design) {
+  for (std::string& line : lines) {
+    if (line.find(':') == std::string::npos) line = design + ':' + line;
+  }
+  return lines;
+}
+
+// Whether a line, "ring.scad:12", made the leaf or called what made it.
+bool is_of_line(const csg::Instance& instance, std::string_view line) {
+  const auto fits = [&](const SourceRange& range) {
+    if (!range.is_written()) return false;
+    return fmt::format("/{}:{}", range.source->path(),
+                       range.source->line_column(range.begin).line)
+        .ends_with(fmt::format("/{}", line));
+  };
+  if (fits(instance.range)) return true;
+  for (const csg::CallSite* call = instance.caller; call != nullptr;
+       call = call->caller) {
+    if (fits(call->range)) return true;
+  }
+  return false;
+}
+
+bool is_of_lines(const csg::Instance& instance,
+                 const std::vector<std::string>& lines) {
+  return std::ranges::any_of(lines, [&](const std::string& line) {
+    return is_of_line(instance, line);
+  });
+}
+
+// The leaves whose tips the design or the request decides, by their diameter:
+// where none are wanted comes first.
+std::vector<slicer::MarkedSolid> marked_solids(
+    const csg::Scene& scene, const std::vector<slicer::Layer>& layers,
+    const SupportLines& lines) {
+  const auto tip_of = [&](const csg::Instance& instance) {
+    if (is_of_lines(instance, lines.without)) return 0.0;
+    if (!lines.only.empty() && !is_of_lines(instance, lines.only)) return 0.0;
+    // It comes from a float.
+    return std::round(double{instance.support_tip} * 1e4) / 1e4;
+  };
+  std::set<double> tips;
+  for (const csg::Instance& instance : scene.instances) {
+    if (const double tip = tip_of(instance); tip >= 0) tips.insert(tip);
+  }
+  slicer::Settings settings;
+  for (const slicer::Layer& layer : layers) {
+    settings.heights.push_back(layer.section_z);
+  }
+  std::vector<slicer::MarkedSolid> marked;
+  for (const double tip : tips) {
+    const auto leaves = slicer::leaves_of(
+        scene, [&](const csg::Instance& one) { return tip_of(one) == tip; });
+    marked.push_back({tip, slice_all(*leaves, settings)});
+  }
+  return marked;
+}
+
+// Names the lines of what the supports hold.
+void name_lines(const csg::Scene& scene,
+                const std::vector<slicer::Layer>& layers,
+                slicer::SupportPlan& plan) {
+  std::vector<double> heights;
+  for (const slicer::Layer& layer : layers) heights.push_back(layer.section_z);
+  const auto grid = ldni::LayerGrid::at_heights(heights);
+  std::vector<slicer::SupportContact> contacts;
+  for (const slicer::Support& support : plan.supports) {
+    const auto layer = std::ranges::lower_bound(heights, support.contact.z);
+    contacts.push_back(
+        {.place = Vec2(support.contact),
+         .section_z = layer == heights.end() ? heights.back() : *layer});
+  }
+  slicer::find_makers(scene, grid, std::span(contacts));
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].instance == slicer::kNoInstance) continue;
+    plan.supports[i].holds = line_text(scene.instances[contacts[i].instance]);
+  }
+}
+
 }  // namespace
 
 std::optional<slicer::SupportPlan> plan_supports(const Request& request,
@@ -38,9 +140,18 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
   Compilation compilation(part, files);
   compilation.evaluation_stack = evaluation_stack;
   try {
-    const auto seen = look_at(compilation, {.keeps_layers = true});
-    if (!seen) return std::nullopt;
-    return slicer::plan_supports(seen->layers, *request.supports);
+    const auto lowered = make_geometry(compilation);
+    if (!lowered || lowered->scene() == nullptr) return std::nullopt;
+    const csg::Scene& scene = *lowered->scene();
+    const std::vector<slicer::Layer> layers = slice_all(scene, part.job);
+    slicer::SupportPlan plan = slicer::plan_supports(
+        layers, *request.supports,
+        marked_solids(
+            scene, layers,
+            {with_files(request.support_lines.only, request.design.path),
+             with_files(request.support_lines.without, request.design.path)}));
+    name_lines(scene, layers, plan);
+    return plan;
   } catch (const InternalError&) {
     throw;
   } catch (const Error&) {
@@ -55,10 +166,15 @@ std::string support_lines(const slicer::SupportPlan& plan,
 }
 
 void warn_of_unheld(const slicer::SupportPlan& plan, Diagnostics& diagnostics) {
+  const auto warn = [&](std::string_view what, Vec3 place) {
+    diagnostics.own_warning({}, fmt::format("{} {:.2f}, {:.2f}, {:.2f}", what,
+                                            place.x, place.y, place.z));
+  };
   for (const Vec3 place : plan.unheld) {
-    diagnostics.own_warning(
-        {}, fmt::format("no support finds a way to {:.2f}, {:.2f}, {:.2f}",
-                        place.x, place.y, place.z));
+    warn("no support finds a way to", place);
+  }
+  for (const Vec3 place : plan.unwanted) {
+    warn("the design wants no support where one is needed, at", place);
   }
 }
 

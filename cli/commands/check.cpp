@@ -113,7 +113,11 @@ class CheckCommand : public Command {
     report_skipped(compilation, found.file);
     const slicer::PrintCheck& print = *found.print;
     if (is_json_) {
-      print_out(json_text(print_json(print, lines.findings)));
+      auto json = print_json(print, lines.findings);
+      if (found.supports) {
+        json["supports"] = supports_json(*found.supports, lines.contacts);
+      }
+      print_out(json_text(json));
     } else {
       print_out(text_of(*inspection, machine, request, !is_file));
     }
@@ -149,10 +153,13 @@ class CheckCommand : public Command {
     }
     const std::string estimate = slicer::estimate_text(
         machine, slicer::estimate_print(machine, request.job.layer_thickness,
-                                        found.layers.size(), found.volume));
+                                        found.layers.size(), found.volume,
+                                        found.part_volume()));
     if (!estimate.empty()) text += estimate + '\n';
     text += finding_table(*found.print,
                           compiler::texts_of(inspection.lines.findings));
+    text += contact_table(found.supports,
+                          compiler::texts_of(inspection.lines.contacts));
     if (request.job.min_feature > 0) {
       text += feature_table(found.features, request.job.min_feature,
                             compiler::texts_of(inspection.lines.features));

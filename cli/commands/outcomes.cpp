@@ -22,6 +22,11 @@ std::string notes_of(const compiler::Report& report) {
   if (report.slice.print && !report.slice.print->findings.empty()) {
     text += (text.empty() ? "" : "; ") + finding_counts(*report.slice.print);
   }
+  if (const auto& supports = report.slice.supports) {
+    text += fmt::format("{}{:.4g} mm³ of supports, {}",
+                        text.empty() ? "" : "; ", supports->volume,
+                        counted(supports->contacts.size(), "contact"));
+  }
   return text;
 }
 
@@ -40,29 +45,40 @@ std::string row_of(const Outcome& outcome) {
 }
 
 constexpr std::string_view kCsvHeader =
-    "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,price,"
-    "metal_grams,metal_price,print_seconds,seconds,warnings,findings,error\r\n";
+    "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,supports_mm3,contacts,"
+    "contact_mm2,grams,price,metal_grams,metal_price,print_seconds,seconds,"
+    "warnings,findings,error\r\n";
 
 // Empty where it is not known.
 std::string figure(double value) {
   return value > 0 ? fmt::format("{}", value) : "";
 }
 
+// Volume, contacts, and their area.
+std::string supports_of(const compiler::Report& report) {
+  const auto& supports = report.slice.supports;
+  return supports
+             ? fmt::format("{},{},{}", supports->volume,
+                           supports->contacts.size(), supports->contact_area())
+             : ",,";
+}
+
 std::string csv_of(const Piece& piece, const Outcome& outcome) {
   const std::string line = piece.line > 0 ? fmt::format("{}", piece.line) : "";
-  std::string figures = ",,,,,,,,,,,,";
+  std::string figures = ",,,,,,,,,,,,,,,";
   if (outcome.is_done()) {
     const compiler::Report& report = outcome.report;
     const slicer::PrintEstimate& estimate = report.estimate;
     const Vec3 size = report.slice.box.size();
     figures = fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{}", report.slice.layers,
+        "{},{},{},{},{},{},{},{},{},{},{},{}", report.slice.layers,
         report.slice.box.is_empty()
             ? ",,"
             : fmt::format("{:.6g},{:.6g},{:.6g}", size.x, size.y, size.z),
-        report.slice.volume, figure(estimate.grams), figure(estimate.price),
-        figure(estimate.metal_grams), figure(estimate.metal_price),
-        figure(estimate.seconds), report.wall_seconds, report.warnings,
+        report.slice.volume, supports_of(report), figure(estimate.grams),
+        figure(estimate.price), figure(estimate.metal_grams),
+        figure(estimate.metal_price), figure(estimate.seconds),
+        report.wall_seconds, report.warnings,
         csv_words(report.slice.print ? finding_counts(*report.slice.print)
                                      : ""));
   }

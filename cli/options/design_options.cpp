@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
+#include "csg/support_tip.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
@@ -27,21 +28,39 @@ std::vector<std::string> texts(const Words& words) {
 constexpr std::array<std::string_view, slicer::kFindingKinds> kFindingWords = {
     "islands", "loose-parts", "overhangs", "suction-cups", "resin-traps"};
 
-// The diameter of a support's tip [mm]; "true" where no size was given.
-double tip_of(const std::string& size) {
-  if (size == "light") return 0.25;
-  if (size == "medium" || size == "true") return 0.3;
-  if (size == "heavy") return 0.4;
-  const std::optional<double> tip = parse_number(size);
-  require(tip && *tip >= 0.1 && *tip <= 2, "--supports",
-          "light, medium, heavy or 0.1 to 2 (mm) was expected, not '{}'", size);
-  return *tip;
+// Words between commas.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream list(text);
+  for (std::string word; std::getline(list, word, ',');) words.push_back(word);
+  return words;
+}
+
+// "heavy", "0.35", "light,raft", "raft"; "true" where nothing was given.
+slicer::SupportSizes sizes_of(const std::string& text) {
+  slicer::SupportSizes sizes;
+  for (const std::string& word : words_of(text)) {
+    if (word == "true") continue;
+    if (word == "raft") {
+      sizes.has_raft = true;
+      continue;
+    }
+    std::optional<double> tip = csg::support_tip_named(word);
+    if (!tip) tip = parse_number(word);
+    require(tip && *tip >= csg::kLeastSupportTip &&
+                *tip <= csg::kGreatestSupportTip,
+            "--supports",
+            "light, medium, heavy or {:g} to {:g} (mm) was expected, and raft "
+            "behind a comma, not '{}'",
+            csg::kLeastSupportTip, csg::kGreatestSupportTip, word);
+    sizes.tip = *tip;
+  }
+  return sizes;
 }
 
 // words  "islands,loose-parts", "all"
 void add_findings(const std::string& words, slicer::PrintRules& rules) {
-  std::istringstream list(words);
-  for (std::string word; std::getline(list, word, ',');) {
+  for (const std::string& word : words_of(words)) {
     if (word == "all") {
       rules.fail_on = slicer::kAllFindings;
       continue;
@@ -141,7 +160,13 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
       [&](const std::string& axis) { request.geometry.axis = axis; });
   options.number("--turn", "degrees", request.geometry.turn);
   options.flag("--supports", [&request](const std::string& size) {
-    request.supports = slicer::SupportSizes{.tip = tip_of(size)};
+    request.supports = sizes_of(size);
+  });
+  options.text("--support-on", "lines", [&request](const std::string& text) {
+    request.support_lines.only = words_of(text);
+  });
+  options.text("--no-support-on", "lines", [&request](const std::string& text) {
+    request.support_lines.without = words_of(text);
   });
   options.flag("--place-on-bed", request.geometry.is_placed_on_bed);
   options.choice(

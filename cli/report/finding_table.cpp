@@ -153,6 +153,33 @@ std::string finding_table(const PrintCheck& print,
   return text;
 }
 
+std::string contact_table(
+    const std::optional<slicer::SupportMeasures>& supports,
+    std::span<const std::string> source_lines) {
+  if (!supports) return {};
+  std::string text = fmt::format("supports: {}\n", size_text(*supports));
+  struct Touched {
+    double area = 0;
+    std::size_t places = 0;
+  };
+  std::map<std::string_view, Touched> by_line;
+  for (std::size_t i = 0; i < source_lines.size(); ++i) {
+    if (source_lines[i].empty()) continue;
+    Touched& touched = by_line[source_lines[i]];
+    touched.area += supports->contacts[i].area;
+    ++touched.places;
+  }
+  std::vector<std::pair<std::string_view, Touched>> rows(by_line.begin(),
+                                                         by_line.end());
+  std::ranges::stable_sort(rows, std::greater<>(),
+                           [](const auto& row) { return row.second.area; });
+  for (const auto& [line, touched] : rows) {
+    text += fmt::format("{:>9.3f} mm² at {} of {}\n", touched.area,
+                        counted(touched.places, "place"), line);
+  }
+  return text;
+}
+
 nlohmann::ordered_json finding_json(const Finding& finding) {
   nlohmann::ordered_json json = {{"kind", name_of(finding.kind)},
                                  {"is_minor", finding.is_minor},

@@ -1,12 +1,14 @@
 #pragma once
 // What the layer graph found, for people and as JSON.
 
+#include <optional>
 #include <span>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "slicer/check/print/layer_graph.h"
+#include "slicer/supports/support_contacts.h"
 
 namespace lamina::cli {
 
@@ -20,6 +22,12 @@ std::string finding_counts(const slicer::PrintCheck& print);
 // source_lines  what made each finding, one text for each; empty if not known
 std::string finding_table(const slicer::PrintCheck& print,
                           std::span<const std::string> source_lines);
+
+// What supports touch, as a line, and as one for each source line of the part.
+// Empty where there are no supports.
+std::string contact_table(
+    const std::optional<slicer::SupportMeasures>& supports,
+    std::span<const std::string> source_lines);
 
 nlohmann::ordered_json finding_json(const slicer::Finding& finding);
 nlohmann::ordered_json peel_json(const slicer::Peel& peel);

@@ -13,6 +13,7 @@
 #include "cli/report/feature_table.h"
 #include "cli/report/finding_table.h"
 #include "cli/report/printed_text.h"
+#include "cli/report/run_report.h"
 #include "slicer/contour/deviation.h"
 #include "slicer/machine/material.h"
 
@@ -24,6 +25,12 @@ using slicer::Inspection;
 using slicer::Material;
 using slicer::SamplingRow;
 using slicer::ThinFeature;
+
+// Supports are printed, but not cast.
+double weight_of(const Inspection& found, const Material& material) {
+  return material.weight(material.is_metal() ? found.part_volume()
+                                             : found.volume);
+}
 
 // Metals, wax, and resin as such, the heaviest first.
 std::vector<Material> weighed_materials() {
@@ -177,6 +184,7 @@ class Text : PrintedText {
           totals.holes, totals.vertices);
     if (!found_.box.is_empty()) print_box(found_.box);
     print("volume    {:.6f} mm³\n", found_.volume);
+    if (found_.supports) print("supports  {}\n", size_text(*found_.supports));
   }
 
   void print_weights() {
@@ -184,7 +192,7 @@ class Text : PrintedText {
     std::string_view title = "weight";
     for (const Material& material : weighed_materials()) {
       print("{:<9} {:>10.3f} g  {} ({} g/cm³)\n", title,
-            material.weight(found_.volume), material.title, material.density);
+            weight_of(found_, material), material.title, material.density);
       title = "";
     }
   }
@@ -297,8 +305,9 @@ std::string inspection_json(const Inspection& found) {
   json["box_mm"] = box_json(found.box);
   json["top_mm"] = found.top;
   json["volume_mm3"] = found.volume;
+  if (found.supports) json["supports"] = supports_json(*found.supports, {});
   for (const Material& material : weighed_materials()) {
-    json["weight_g"][material.title] = material.weight(found.volume);
+    json["weight_g"][material.title] = weight_of(found, material);
   }
   json["loops"] = totals.loops;
   json["holes"] = totals.holes;

@@ -184,11 +184,14 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
     json["print"] = print_json(*report.slice.print, report.lines.findings);
   }
   json.update(machine_json(report.machine, report.estimate));
-  if (report.supports) {
-    json["supports"] = {{"count", report.supports->supports.size()},
-                        {"on_part", report.supports->count_on_part()},
-                        {"unheld", report.supports->unheld.size()},
-                        {"tip_mm", report.supports->sizes.tip}};
+  if (const auto& measures = report.slice.supports) {
+    json["supports"] = supports_json(*measures, report.lines.contacts);
+  }
+  if (const auto& plan = report.supports) {
+    json["supports"].update({{"count", plan->supports.size()},
+                             {"on_part", plan->count_on_part()},
+                             {"unheld", plan->unheld.size()},
+                             {"tip_mm", plan->sizes.tip}});
   }
   if (settings.min_feature > 0) {
     json["min_feature_mm"] = number(settings.min_feature);
@@ -222,7 +225,8 @@ std::string print_line(const compiler::Report& report,
 }
 
 std::string supports_line(const compiler::Report& report) {
-  return report.supports ? "\n" + size_text(*report.supports) : "";
+  const auto& measures = report.slice.supports;
+  return measures ? "\nsupports: " + size_text(*measures) : "";
 }
 
 std::string machine_line(const compiler::Report& report) {
@@ -294,6 +298,25 @@ Json print_json(const slicer::PrintCheck& print,
     if (i < lines.size()) finding["made_by"] = lines_json(lines[i]);
   }
   return {{"peel", peel_json(print.peel)}, {"findings", std::move(findings)}};
+}
+
+Json supports_json(const slicer::SupportMeasures& supports,
+                   std::span<const compiler::SourceLines> lines) {
+  Json contacts = Json::array();
+  for (std::size_t i = 0; i < supports.contacts.size(); ++i) {
+    const slicer::SupportContact& contact = supports.contacts[i];
+    Json& json =
+        contacts.emplace_back(Json{{"layer", contact.layer},
+                                   {"z", contact.section_z},
+                                   {"x", contact.place.x},
+                                   {"y", contact.place.y},
+                                   {"area_mm2", contact.area},
+                                   {"is_from_above", contact.is_from_above}});
+    if (i < lines.size()) json["made_by"] = lines_json(lines[i]);
+  }
+  return {{"volume_mm3", supports.volume},
+          {"contact_area_mm2", supports.contact_area()},
+          {"contacts", std::move(contacts)}};
 }
 
 Json machine_json(const compiler::Machine& machine,

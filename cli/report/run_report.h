@@ -36,6 +36,13 @@ std::string json_text(const nlohmann::ordered_json& json);
 nlohmann::ordered_json print_json(const slicer::PrintCheck& print,
                                   std::span<const compiler::SourceLines> lines);
 
+// What the supports are, and where they touch the part.
+//
+// lines  of the design, of each contact
+nlohmann::ordered_json supports_json(
+    const slicer::SupportMeasures& supports,
+    std::span<const compiler::SourceLines> lines);
+
 // The printer and the material, and what the print takes.
 nlohmann::ordered_json machine_json(const compiler::Machine& machine,
                                     const slicer::PrintEstimate& estimate);

@@ -18,6 +18,10 @@ struct Layer {
   // [mm]; 0: nothing is known.
   double clearance = 0;
   plane::Contours contours;
+  // Of a design with supports: the part and its supports by themselves. Tips of
+  // supports are in the part.
+  plane::Contours part;
+  plane::Contours supports;
 };
 
 // Takes the layers of a job in ascending order: a writer, a comparison, a test.

@@ -72,7 +72,7 @@ ChosenExposure choose_exposure(const Machine& machine, double layer_thickness) {
 }
 
 PrintEstimate estimate_print(const Machine& machine, double layer_thickness,
-                             std::size_t layers, double volume) {
+                             std::size_t layers, double volume, double cast) {
   PrintEstimate estimate;
   estimate.volume = volume;
   if (const auto& material = machine.material) {
@@ -82,9 +82,9 @@ PrintEstimate estimate_print(const Machine& machine, double layer_thickness,
     }
   }
   if (const auto& metal = machine.metal) {
-    estimate.metal_grams = metal->weight(volume);
+    estimate.metal_grams = metal->weight(cast);
     if (metal->price) {
-      estimate.metal_price = metal->price->of(estimate.metal_grams, volume);
+      estimate.metal_price = metal->price->of(estimate.metal_grams, cast);
     }
   }
   if (machine.printer) {

@@ -37,7 +37,7 @@ ChosenExposure choose_exposure(const Machine& machine, double layer_thickness);
 struct PrintEstimate {
   double seconds = 0;
   ChosenExposure exposure;  // that the time rests on
-  double volume = 0;        // of the part [mm³]
+  double volume = 0;        // of all that is printed [mm³]
   double grams = 0;         // of resin or wax
   double price = 0;
   double metal_grams = 0;
@@ -48,9 +48,10 @@ struct PrintEstimate {
 };
 
 // layers  of the part, all as thick as this [mm]
-// volume  [mm³]
+// volume  of all that is printed [mm³]
+// cast    what of that is cast in metal, all but supports [mm³]
 PrintEstimate estimate_print(const Machine& machine, double layer_thickness,
-                             std::size_t layers, double volume);
+                             std::size_t layers, double volume, double cast);
 
 // The sum of what several prints take.
 PrintEstimate operator+(PrintEstimate sum, const PrintEstimate& other);

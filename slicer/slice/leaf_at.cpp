@@ -1,4 +1,4 @@
-#include "slicer/slice/detail/leaf_at.h"
+#include "slicer/slice/leaf_at.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ldni/section/leaf_section.h"
+#include "slicer/slice/support_scene.h"
 
 namespace lamina::slicer {
 namespace {
@@ -107,6 +108,19 @@ void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
     if (finding->instance != kNoInstance) continue;
     const auto now = here.find(layer, finding->place);
     if (!now.empty()) finding->instance = now.front();
+  }
+}
+
+void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
+                 std::span<SupportContact> contacts) {
+  LeafFinder finder(scene, grid);
+  for (SupportContact& contact : contacts) {
+    for (const std::uint32_t instance :
+         finder.find(layer_at(grid, contact.section_z), contact.place)) {
+      if (is_support(scene.instances[instance])) continue;
+      contact.instance = instance;
+      break;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
 #include "slicer/check/print/layer_graph.h"
+#include "slicer/supports/support_contacts.h"
 
 namespace lamina::slicer {
 
@@ -15,5 +16,10 @@ namespace lamina::slicer {
 // only designs with findings pay for it. Minor findings keep none.
 void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
                  std::span<Finding> findings);
+
+// Sets the instances of contacts: the first that contains the contact's place
+// in the part's layer and is no support.
+void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
+                 std::span<SupportContact> contacts);
 
 }  // namespace lamina::slicer

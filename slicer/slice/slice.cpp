@@ -11,8 +11,9 @@
 #include "slicer/contour/compensate.h"
 #include "slicer/plan/adaptive.h"
 #include "slicer/slice/detail/block_slicer.h"
-#include "slicer/slice/detail/leaf_at.h"
 #include "slicer/slice/detail/slice_job.h"
+#include "slicer/slice/leaf_at.h"
+#include "slicer/slice/support_scene.h"
 
 namespace lamina::slicer {
 namespace {
@@ -150,10 +151,17 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
                   const Settings& settings, LayerSink& sink,
                   Diagnostics& diagnostics) {
   SliceReport report;
-  Plan plan;
-  report.section_seconds =
-      measure_seconds([&] { plan = plan_blocks(scene, settings, grid); });
-  report.renderer = plan.renderer;
+  Plans plans;
+  const std::optional<csg::Scene> supports = leaves_of(scene, is_support);
+  csg::Scene part;
+  report.section_seconds = measure_seconds([&] {
+    plans.whole = plan_blocks(scene, settings, grid);
+    if (!supports) return;
+    part = without_leaves(scene, is_support);
+    plans.part = plan_blocks(part, settings, grid);
+    plans.supports = plan_blocks(*supports, settings, grid);
+  });
+  report.renderer = plans.whole.renderer;
   std::optional<FeatureCollector> features;
   if (settings.min_feature > 0) {
     features.emplace(settings.min_feature, source_ids(scene));
@@ -162,8 +170,11 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   sink.expect(grid.layer_count());
   std::optional<LayerGraph> graph;
   if (makes_whole_print(settings)) graph.emplace(settings.print);
-  run_slice_job(plan, grid, settings, sink,
-                {features ? &*features : nullptr, graph ? &*graph : nullptr},
+  std::optional<SupportMeter> meter;
+  if (supports && makes_whole_print(settings)) meter.emplace();
+  run_slice_job(plans, grid, settings, sink,
+                {features ? &*features : nullptr, graph ? &*graph : nullptr,
+                 meter ? &*meter : nullptr},
                 report);
   if (features) report.features = features->finish();
   if (graph) {
@@ -171,6 +182,13 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
     if (settings.finds_makers) {
       report.graph_seconds += measure_seconds(
           [&] { find_makers(scene, grid, report.print->findings); });
+    }
+  }
+  if (meter) {
+    report.supports = meter->finish();
+    if (settings.finds_makers) {
+      report.graph_seconds += measure_seconds(
+          [&] { find_makers(scene, grid, report.supports->contacts); });
     }
   }
   warn_of_broken_promises(report, diagnostics);

@@ -19,6 +19,7 @@
 #include "slicer/contour/layer.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/slice/settings.h"
+#include "slicer/supports/support_contacts.h"
 
 namespace lamina::slicer {
 
@@ -52,7 +53,13 @@ struct SliceReport {
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
   // What the layer graph found; nothing where makes_whole_print() is false.
   std::optional<PrintCheck> print;
+  // Of the design's supports; nothing where it has none.
+  std::optional<SupportMeasures> supports;
 
+  // Of the layers without supports [mm³].
+  double part_volume() const {
+    return volume - (supports ? supports->volume : 0);
+  }
   // Counts a layer that is written.
   void add(const LayerMeasures& layer, double bottom, double top);
 };

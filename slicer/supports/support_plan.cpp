@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "base/text.h"
 #include "slicer/supports/detail/contact_finder.h"
 #include "slicer/supports/detail/layer_solids.h"
 #include "slicer/supports/detail/support_router.h"
+#include "slicer/supports/detail/support_trees.h"
+#include "slicer/supports/detail/symmetry.h"
 
 namespace lamina::slicer {
 
@@ -31,7 +35,7 @@ double hold_radius(double tip, double height) {
 
 std::size_t SupportPlan::count_on_part() const {
   return static_cast<std::size_t>(
-      std::ranges::count_if(supports, &Support::stands_on_part));
+      std::ranges::count(supports, SupportEnd::kPart, &Support::end));
 }
 
 std::string size_text(const SupportPlan& plan) {
@@ -40,25 +44,102 @@ std::string size_text(const SupportPlan& plan) {
          (on_part > 0 ? fmt::format(", {} of them on the part", on_part) : "");
 }
 
+namespace {
+
+Support image_of(Support support, const detail::Isometry& symmetry) {
+  support.contact = detail::moved(symmetry, support.contact);
+  for (Vec3& place : support.path) place = detail::moved(symmetry, place);
+  return support;
+}
+
+// Of those that touch the part with their tips only.
+std::vector<Support> images_of(const std::vector<Support>& supports,
+                               const detail::Isometry& symmetry,
+                               const detail::SupportRouter& router) {
+  std::vector<Support> images;
+  for (const Support& support : supports) {
+    Support image = image_of(support, symmetry);
+    if (router.is_free(image)) images.push_back(std::move(image));
+  }
+  return images;
+}
+
+bool is_same(const Support& a, const Support& b) {
+  constexpr double kSame = 1e-3;  // [mm]
+  return std::ranges::equal(a.path, b.path, [](Vec3 one, Vec3 other) {
+    return glm::distance(one, other) < kSame;
+  });
+}
+
+// The support of a contact; and its images, where symmetries leave the contact
+// as it is but not the way down.
+std::vector<Support> route(const detail::SupportRouter& router,
+                           const detail::Contact& contact,
+                           std::span<const detail::Isometry> symmetries) {
+  auto support = router.route(contact);
+  if (!support) return {};
+  std::vector<Support> all = {std::move(*support)};
+  for (const detail::Isometry& symmetry : symmetries) {
+    Support image = image_of(all.front(), symmetry);
+    const bool is_new =
+        glm::distance(image.contact, all.front().contact) < contact.tip / 4 &&
+        std::ranges::none_of(
+            all, [&](const Support& other) { return is_same(image, other); });
+    if (is_new && router.is_free(image)) all.push_back(std::move(image));
+  }
+  return all;
+}
+
+// Where the bed is, so that the part keeps its layers.
+double bed_below(const Layer& first, double lift) {
+  constexpr double kRounding = 1e-6;  // of layers
+  const double thickness = first.top - first.bottom;
+  return first.bottom - thickness * std::ceil(lift / thickness - kRounding);
+}
+
+}  // namespace
+
 SupportPlan plan_supports(std::span<const Layer> layers,
-                          const SupportSizes& sizes) {
+                          const SupportSizes& sizes,
+                          std::span<const MarkedSolid> marked) {
   SupportPlan plan;
   plan.sizes = sizes;
   // An outline has no height.
   if (layers.empty() || !(layers.front().bottom < layers.front().top)) {
     return plan;
   }
-  plan.bed = layers.front().bottom - sizes.lift;
+  plan.bed = bed_below(layers.front(), sizes.lift);
   const detail::LayerSolids solids(layers);
+  std::vector<detail::MarkedPlaces> places;
+  for (const MarkedSolid& one : marked) {
+    places.push_back({one.tip, detail::LayerSolids(one.layers)});
+  }
+  const auto symmetries = detail::find_symmetries(solids, places);
+  detail::FoundContacts found =
+      detail::find_contacts(solids, plan.sizes, places, symmetries);
+  plan.unwanted = std::move(found.unwanted);
   const detail::SupportRouter router(solids, plan.sizes, plan.bed);
-  for (const detail::Contact& contact :
-       detail::find_contacts(solids, plan.sizes)) {
-    if (auto support = router.route(contact)) {
-      plan.supports.push_back(std::move(*support));
-    } else if (contact.is_needed) {
+  std::vector<std::vector<Support>> supports;  // of each contact
+  for (const detail::Contact& contact : found.contacts) {
+    std::vector<Support> own;
+    if (contact.symmetry == 0) {
+      own = route(router, contact, symmetries);
+    } else {
+      own = images_of(supports[contact.original], symmetries[contact.symmetry],
+                      router);
+      if (own.empty()) own = route(router, contact, {});
+    }
+    if (own.empty() && contact.is_needed) {
       plan.unheld.push_back(contact.place);
     }
+    supports.push_back(std::move(own));
   }
+  for (std::vector<Support>& own : supports) {
+    std::ranges::move(own, std::back_inserter(plan.supports));
+  }
+  detail::merge_pillars(symmetries, router, plan.sizes, plan.bed,
+                        plan.supports);
+  plan.braces = router.find_braces(plan.supports);
   return plan;
 }
 

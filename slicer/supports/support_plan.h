@@ -4,13 +4,21 @@
 // A support is a **head**, a cone whose tip touches the part in a **contact**;
 // a **pillar**, straight down or leaning by 45° until the way down is free; and
 // a **foot** on the bed. Where no way leads to the bed, the pillar ends in a
-// second tip on the part itself.
+// second tip on the part itself; and where that saves resin, it leans over to
+// another pillar, like the branch of a **tree**. Tall pillars are tied to their
+// neighbours by
+// **braces**, and a **raft** can join all feet.
 //
 // A contact holds what is near. After PrusaSlicer 2.9, whose makers found it in
 // test prints, that is 3.2 mm in the layer of a contact with a tip of 0.4 mm,
 // and more above it: see hold_radius().
+//
+// A part that is mirrored or n-fold symmetric, seen from above, gets supports
+// that are so, too.
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,10 +34,12 @@ struct SupportSizes {
   double penetration = 0.15;  // of the tip into the part
   double head = 2.5;          // length of the cone, at most
   double pillar = 1;          // diameter
+  double brace = 0.6;         // diameter
   double foot = 3;            // diameter on the bed
-  double foot_height = 1;
-  double lift = 5;         // of the part over the bed
-  double clearance = 0.5;  // between the part and all but the tips
+  double foot_height = 1;     // and that of a raft
+  double lift = 5;            // of the part over the bed, at least
+  double clearance = 0.5;     // between the part and all but the tips
+  bool has_raft = false;      // in the place of feet
 };
 
 // How far from a contact it holds the part [mm].
@@ -38,19 +48,29 @@ struct SupportSizes {
 // height  above the contact [mm]
 double hold_radius(double tip, double height);
 
+enum class SupportEnd : std::uint8_t { kFoot, kPart, kPillar };
+
 struct Support {
   Vec3 contact = Vec3(0);  // the middle of the tip
+  double tip = 0;          // its diameter [mm]
   // From inside the tip down: the end of the head, bends, the lowest point.
   std::vector<Vec3> path;
-  bool stands_on_part = false;
+  SupportEnd end = SupportEnd::kFoot;
+  std::string holds;  // the source line of what it holds; empty if not known
 };
+
+// A rod between two pillars.
+using Brace = std::array<Vec3, 2>;
 
 struct SupportPlan {
   SupportSizes sizes;
   double bed = 0;  // height of the bed below the part [mm]
   std::vector<Support> supports;
+  std::vector<Brace> braces;
   // Places that must be held and to which no way was found.
   std::vector<Vec3> unheld;
+  // Places that must be held and where the design wants no supports.
+  std::vector<Vec3> unwanted;
 
   // Supports that stand on the part.
   std::size_t count_on_part() const;
@@ -59,8 +79,17 @@ struct SupportPlan {
 // "7 supports, 1 of them on the part"
 std::string size_text(const SupportPlan& plan);
 
+// What the design wants below some of its leaves.
+struct MarkedSolid {
+  double tip = 0;  // the diameter of tips [mm]; 0: no supports
+  // Of these leaves alone: the sections at the heights of the part's layers.
+  std::vector<Layer> layers;
+};
+
 // layers  of the whole part, in ascending order
+// marked  where two of them are in one place, the first counts
 SupportPlan plan_supports(std::span<const Layer> layers,
-                          const SupportSizes& sizes);
+                          const SupportSizes& sizes,
+                          std::span<const MarkedSolid> marked = {});
 
 }  // namespace lamina::slicer

@@ -1,8 +1,10 @@
 #include "slicer/supports/support_text.h"
 
 #include <iterator>
+#include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace lamina::slicer {
 namespace {
@@ -18,64 +20,135 @@ module support_rod(from, to, d1, d2) {
 }
 
 // A way down: from inside the part, down the head, past bends, to the foot on
-// the bed; or, if it lands, to a second tip inside the part.
-module support_of(path, lands = false) {
+// the bed; or, if it lands, to a second tip inside the part; or, if it joins, to
+// another pillar.
+module support_of(path, lands = false, joins = false, tip = support_tip) {
   last = len(path) - 1;
   for (i = [0 : last - 1])
-    support_rod(path[i], path[i + 1], i == 0 ? support_tip : support_pillar,
-                lands && i == last - 1 ? support_tip : support_pillar);
-  if (!lands)
+    support_rod(path[i], path[i + 1], i == 0 ? tip : support_pillar,
+                lands && i == last - 1 ? tip : support_pillar);
+  if (!lands && !joins)
     translate(path[last] - [0, 0, support_foot_height])
       cylinder(d1 = support_foot, d2 = support_pillar, h = support_foot_height,
                $fn = 32);
 }
-
 )";
 
-// "[1.5, -2, 0.125]": as short as a micrometre allows.
-std::string words(Vec3 place) {
-  const auto number = [](double value) {
-    std::string text = fmt::format("{:.3f}", value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) text.pop_back();
-    return text == "-0" ? std::string("0") : text;
-  };
-  return fmt::format("[{}, {}, {}]", number(place.x), number(place.y),
-                     number(place.z));
+constexpr const char* kBraceModule = R"(
+// A rod between two pillars.
+module support_brace(from, to)
+  support_rod(from, to, support_brace_d, support_brace_d);
+)";
+
+constexpr const char* kRaftModule = R"(
+// A plate that joins the feet; its sides lean, so that a scraper gets below it.
+module support_raft(feet) hull()
+  for (foot = feet) translate(foot)
+    cylinder(d1 = support_foot, d2 = support_foot + 2 * support_foot_height,
+             h = support_foot_height, $fn = 32);
+)";
+
+// "1.5", "0.125": as short as a micrometre allows.
+std::string word(double value) {
+  std::string text = fmt::format("{:.3f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
 }
+
+std::string words(Vec3 place) {
+  return fmt::format("[{}, {}, {}]", word(place.x), word(place.y),
+                     word(place.z));
+}
+
+class TextMaker {
+ public:
+  explicit TextMaker(const SupportPlan& plan) : plan_(plan) {}
+
+  std::string make(const Affine& design_from_job) {
+    add_head();
+    const bool is_turned = design_from_job != Affine(1.0);
+    if (is_turned) {
+      const Affine& m = design_from_job;
+      text_ += "multmatrix([";
+      for (int row = 0; row < 3; ++row) {
+        add("[{}, {}, {}, {}], ", m[0][row], m[1][row], m[2][row], m[3][row]);
+      }
+      text_ += "[0, 0, 0, 1]]) {\n";
+      indent_ = "  ";
+    }
+    for (const Support& support : plan_.supports) add_support(support);
+    for (const auto& [from, to] : plan_.braces) {
+      add("{}support_brace({}, {});\n", indent_, words(from), words(to));
+    }
+    if (plan_.sizes.has_raft) add_raft();
+    if (is_turned) text_ += "}\n";
+    return std::move(text_);
+  }
+
+ private:
+  template <typename... Parts>
+  void add(fmt::format_string<Parts...> words, Parts&&... parts) {
+    fmt::format_to(std::back_inserter(text_), words,
+                   std::forward<Parts>(parts)...);
+  }
+
+  void add_head() {
+    const SupportSizes& sizes = plan_.sizes;
+    add("\n// Supports: one a line, to be edited, moved or left out. Behind "
+        "each is what it\n// holds.\n"
+        "support_tip = {:g};  // diameter where it touches the part [mm]\n"
+        "support_pillar = {:g};  // diameter\n",
+        sizes.tip, sizes.pillar);
+    if (!plan_.braces.empty()) {
+      add("support_brace_d = {:g};  // diameter\n", sizes.brace);
+    }
+    add("support_foot = {:g};  // diameter on the bed\n"
+        "support_foot_height = {:g};\n",
+        sizes.foot, sizes.foot_height);
+    text_ += kModules;
+    if (!plan_.braces.empty()) text_ += kBraceModule;
+    if (sizes.has_raft) text_ += kRaftModule;
+    text_ += '\n';
+  }
+
+  void add_support(const Support& support) {
+    add("{}support_of([", indent_);
+    for (std::size_t i = 0; i < support.path.size(); ++i) {
+      text_ += (i == 0 ? "" : ", ") + words(support.path[i]);
+    }
+    text_ += ']';
+    if (support.end == SupportEnd::kPart) text_ += ", lands = true";
+    if (support.end == SupportEnd::kPillar) text_ += ", joins = true";
+    if (support.tip != plan_.sizes.tip) add(", tip = {}", word(support.tip));
+    text_ += ");";
+    if (!support.holds.empty()) add("  // {}", support.holds);
+    text_ += '\n';
+  }
+
+  void add_raft() {
+    add("{}support_raft([", indent_);
+    bool is_first = true;
+    for (const Support& support : plan_.supports) {
+      if (support.end != SupportEnd::kFoot) continue;
+      const Vec3 foot = support.path.back();
+      text_ += is_first ? "" : ", ";
+      text_ += words({foot.x, foot.y, plan_.bed});
+      is_first = false;
+    }
+    text_ += "]);\n";
+  }
+
+  const SupportPlan& plan_;
+  std::string text_;
+  std::string indent_;
+};
 
 }  // namespace
 
 std::string support_text(const SupportPlan& plan,
                          const Affine& design_from_job) {
-  const SupportSizes& sizes = plan.sizes;
-  std::string text = fmt::format(
-      "\n// Supports: one a line, to be edited, moved or left out.\n"
-      "support_tip = {:g};  // diameter where it touches the part [mm]\n"
-      "support_pillar = {:g};  // diameter\n"
-      "support_foot = {:g};  // diameter on the bed\n"
-      "support_foot_height = {:g};\n{}",
-      sizes.tip, sizes.pillar, sizes.foot, sizes.foot_height, kModules);
-  const auto out = std::back_inserter(text);
-  const bool is_turned = design_from_job != Affine(1.0);
-  if (is_turned) {
-    const Affine& m = design_from_job;
-    text += "multmatrix([";
-    for (int row = 0; row < 3; ++row) {
-      fmt::format_to(out, "[{}, {}, {}, {}], ", m[0][row], m[1][row], m[2][row],
-                     m[3][row]);
-    }
-    text += "[0, 0, 0, 1]]) {\n";
-  }
-  for (const Support& support : plan.supports) {
-    text += is_turned ? "  support_of([" : "support_of([";
-    for (std::size_t i = 0; i < support.path.size(); ++i) {
-      text += (i == 0 ? "" : ", ") + words(support.path[i]);
-    }
-    fmt::format_to(out, "]{});\n", support.stands_on_part ? ", true" : "");
-  }
-  if (is_turned) text += "}\n";
-  return text;
+  return TextMaker(plan).make(design_from_job);
 }
 
 }  // namespace lamina::slicer

@@ -17,6 +17,7 @@
 #include "slicer/contour/layer.h"
 #include "slicer/contour/layer_file.h"
 #include "slicer/contour/layer_measures.h"
+#include "slicer/supports/support_contacts.h"
 
 namespace lamina::slicer {
 
@@ -41,7 +42,13 @@ struct Inspection {
   std::vector<std::string> reported_defects;  // the first ones, in words
   double min_feature = 0;                     // [mm]; 0: not searched for
   std::vector<ThinFeature> features;
-  std::optional<PrintCheck> print;  // of the layer graph
+  std::optional<PrintCheck> print;          // of the layer graph
+  std::optional<SupportMeasures> supports;  // of a design that has them
+
+  // Without supports [mm³].
+  double part_volume() const {
+    return volume - (supports ? supports->volume : 0);
+  }
 };
 
 struct InspectOptions {

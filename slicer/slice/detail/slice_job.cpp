@@ -45,13 +45,34 @@ struct Block {
   }
 };
 
+// Copies the contours but for some of their loops; false where these are not
+// all among them.
+bool take_out(const plane::Contours& contours, const plane::Contours& loops,
+              plane::Contours& rest) {
+  rest.clear();
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const auto loop = contours.loop(i);
+    bool is_among = false;
+    for (std::size_t k = 0; k < loops.loop_count() && !is_among; ++k) {
+      is_among = std::ranges::equal(loop, loops.loop(k));
+    }
+    if (is_among) {
+      ++found;
+    } else {
+      rest.add_loop(loop);
+    }
+  }
+  return found == loops.loop_count();
+}
+
 // What one thread keeps from block to block.
 class Worker {
  public:
   // sink  encodes layers, and takes none
-  Worker(const Plan& plan, const ldni::LayerGrid& grid,
+  Worker(const Plans& plans, const ldni::LayerGrid& grid,
          const Settings& settings, const LayerSink& sink)
-      : plan_(plan),
+      : plans_(plans),
         grid_(grid),
         sink_(sink),
         self_supporting_(settings.print.self_supporting),
@@ -67,8 +88,14 @@ class Worker {
       block.layers.resize(block.layer_count);
     }
     // Made in the thread that uses it, for it may open OpenGL.
-    if (!slicer_) slicer_ = plan_.make_slicer();
+    if (!slicer_) slicer_ = plans_.whole.make_slicer();
     slicer_->section(block.first_layer, block.layer_count);
+    if (plans_.supports) {
+      if (!support_slicer_) support_slicer_ = plans_.supports->make_slicer();
+      if (!part_slicer_) part_slicer_ = plans_.part->make_slicer();
+      support_slicer_->section(block.first_layer, block.layer_count);
+      part_slicer_->section(block.first_layer, block.layer_count);
+    }
     repeats_.assign(block.layer_count, 0);
     for (std::uint32_t i = 0; i < block.layer_count; ++i) {
       repeats_[i] = slicer_->repeats(i) ? 1 : 0;
@@ -78,6 +105,7 @@ class Worker {
   void make_contours(Block& block) {
     for_each_new(block, [&](std::uint32_t i, Draft& draft) {
       slicer_->make_contours(i, draft.layer.contours);
+      if (support_slicer_) tell_supports_apart(i, draft.layer);
     });
   }
 
@@ -133,10 +161,24 @@ class Worker {
     }
   }
 
+  // Where no support touches the part, its loops are all there is to leave out.
+  void tell_supports_apart(std::uint32_t i, Layer& layer) {
+    support_slicer_->make_contours(i, layer.supports);
+    if (!take_out(layer.contours, layer.supports, layer.part)) {
+      part_slicer_->make_contours(i, layer.part);
+    }
+  }
+
   void finish_draft(Draft& draft) {
     Layer& layer = draft.layer;
     draft.losses = compensate(layer.contours, compensation_);
     layer.compensation = compensation_;
+    if (support_slicer_) {
+      for (plane::Contours* const own : {&layer.part, &layer.supports}) {
+        compensate(*own, compensation_);
+        simplifier_.simplify(*own);
+      }
+    }
     simplifier_.simplify(layer.contours);
     layer.clearance = simplifier_.clearance();
     draft.measures = measure(layer.contours);
@@ -144,12 +186,15 @@ class Worker {
     if (!layer.contours.is_empty()) draft.encoded = sink_.encode(layer);
   }
 
-  const Plan& plan_;
+  const Plans& plans_;
   const ldni::LayerGrid& grid_;
   const LayerSink& sink_;
   const double self_supporting_;
   const double compensation_;
   std::unique_ptr<BlockSlicer> slicer_;
+  // If there are supports.
+  std::unique_ptr<BlockSlicer> support_slicer_;
+  std::unique_ptr<BlockSlicer> part_slicer_;
   std::optional<ThinFinder> thin_finder_;  // if thin places are searched for
   std::optional<OverlaySweep> overlay_sweep_;  // if there is a layer graph
   Simplifier simplifier_;
@@ -207,6 +252,12 @@ class Job {
     if (checks_.graph == nullptr) return;
     for_each_leaving([&](const Layer& layer, const Leaving& leaving) {
       checks_.graph->take(layer, leaving.overlay);
+    });
+  }
+  void measure_supports() {
+    if (checks_.supports == nullptr) return;
+    for_each_leaving([&](const Layer& layer, const Leaving&) {
+      checks_.supports->take(layer);
     });
   }
 
@@ -282,24 +333,24 @@ unsigned choose_threads(const Settings& settings, std::uint32_t block_count) {
 
 }  // namespace
 
-void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
+void run_slice_job(const Plans& plans, const ldni::LayerGrid& grid,
                    const Settings& settings, LayerSink& sink,
                    const Checks& checks, SliceReport& report) {
-  Job job(plan, grid, settings, sink, checks, report);
+  Job job(plans.whole, grid, settings, sink, checks, report);
   const Road<Block, Worker> road = {
       .start = [&](Block& block) { return job.start(block); },
       .make_worker =
-          [&] { return std::make_unique<Worker>(plan, grid, settings, sink); },
+          [&] { return std::make_unique<Worker>(plans, grid, settings, sink); },
       .work = {{report.section_seconds, &Worker::section},
                {report.sweep_seconds, &Worker::make_contours},
                {report.feature_seconds, &Worker::find_thin_places},
                {report.output_seconds, &Worker::finish},
                {report.graph_seconds, &Worker::lay_over}},
-      .finish = {{report.output_seconds,
-                  [&](Block& block) { job.write(block); }},
-                 {report.feature_seconds,
-                  [&](Block&) { job.collect_features(); }},
-                 {report.graph_seconds, [&](Block&) { job.extend_graph(); }}}};
+      .finish =
+          {{report.output_seconds, [&](Block& block) { job.write(block); }},
+           {report.feature_seconds, [&](Block&) { job.collect_features(); }},
+           {report.graph_seconds, [&](Block&) { job.extend_graph(); }},
+           {report.graph_seconds, [&](Block&) { job.measure_supports(); }}}};
   const unsigned threads = choose_threads(settings, job.block_count());
   for (const auto& worker :
        run_pipeline(road, threads, settings.threads != 0)) {

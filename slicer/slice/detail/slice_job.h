@@ -2,12 +2,15 @@
 // The pipeline of a job: one thread or several turn blocks of layers into
 // contours, which leave in order.
 
+#include <optional>
+
 #include "ldni/section/grid.h"
 #include "slicer/check/print/layer_graph.h"
 #include "slicer/check/thin/thin_features.h"
 #include "slicer/slice/detail/block_slicer.h"
 #include "slicer/slice/settings.h"
 #include "slicer/slice/slice.h"
+#include "slicer/supports/support_contacts.h"
 
 namespace lamina::slicer {
 
@@ -15,6 +18,15 @@ namespace lamina::slicer {
 struct Checks {
   FeatureCollector* features = nullptr;
   LayerGraph* graph = nullptr;
+  SupportMeter* supports = nullptr;
+};
+
+// How a job makes its layers.
+struct Plans {
+  Plan whole;
+  // Of a scene with supports, the part and its supports by themselves.
+  std::optional<Plan> part;
+  std::optional<Plan> supports;
 };
 
 // Hands the layers of `grid` to `sink`. Empty layers wait until another layer
@@ -22,7 +34,7 @@ struct Checks {
 // wanted.
 //
 // report  gets times and counts
-void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
+void run_slice_job(const Plans& plans, const ldni::LayerGrid& grid,
                    const Settings& settings, LayerSink& sink,
                    const Checks& checks, SliceReport& report);
 

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <numbers>
+#include <optional>
+#include <queue>
 #include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
 #include "slicer/check/print/layer_graph.h"
 #include "slicer/check/print/layer_overlay.h"
 #include "slicer/check/print/pole.h"
@@ -14,15 +21,14 @@
 namespace lamina::slicer::detail {
 namespace {
 
-// Parts are asked in places only; between them all is held, too: within this
-// share of the radius in which a contact holds.
-constexpr double kShare = 0.85;
-
 // Contours are asked every so many mm, and ledges that reach out farther than
 // kWideLedge on a grid of kGrid.
 constexpr double kStep = 0.5;
 constexpr double kWideLedge = 1.5;
 constexpr double kGrid = 0.5;
+
+// A place that a symmetry moves by less stays where it is [mm].
+constexpr double kFixed = 1e-6;
 
 // A place that must be within reach of a contact.
 struct Wish {
@@ -56,15 +62,128 @@ void visit_outline(std::span<const Vec2> loop, const Visit& visit) {
   }
 }
 
+// Chooses contacts that hold all wishes: each time those that hold the most of
+// what is left for each of them, a greedy cover; and leaves out again what the
+// others hold as well.
+class WishCover {
+ public:
+  // wishes  the first is preferred among equal ones; must outlive it
+  // radius  within which a contact holds them [mm]
+  WishCover(const std::vector<Wish>& wishes, double radius)
+      : wishes_(wishes), radius_(radius), holders_(wishes.size()) {
+    for (std::uint32_t k = 0; k < wishes.size(); ++k) {
+      cells_[cell_of(wishes[k].place)].push_back(k);
+    }
+  }
+
+  // places  of contacts that are chosen together
+  void add(std::size_t candidate, const std::vector<Vec2>& places) {
+    Choice choice = {candidate, 0, {}};
+    for (const Vec2 place : places) {
+      const std::size_t before = choice.held.size();
+      visit_around(place, [&](std::uint32_t k) { choice.held.push_back(k); });
+      if (choice.held.size() > before) ++choice.contacts;
+    }
+    std::ranges::sort(choice.held);
+    choice.held.erase(std::ranges::unique(choice.held).begin(),
+                      choice.held.end());
+    if (choice.contacts == 0) return;
+    const double worth = worth_of(choice);
+    queue_.push({worth, choices_.size()});
+    choices_.push_back(std::move(choice));
+  }
+
+  std::vector<std::size_t> choose() {
+    std::vector<std::size_t> chosen;
+    while (!queue_.empty()) {
+      Ranked best = queue_.top();
+      queue_.pop();
+      // What a choice is worth only becomes less, so that it is the best if it
+      // still is when it is counted again (Minoux 1978).
+      best.worth = worth_of(choices_[best.choice]);
+      if (best.worth == 0) continue;
+      if (!queue_.empty() && best < queue_.top()) {
+        queue_.push(best);
+        continue;
+      }
+      chosen.push_back(best.choice);
+      for (const std::uint32_t k : choices_[best.choice].held) ++holders_[k];
+    }
+    std::erase_if(chosen, [&](std::size_t choice) {
+      const auto& held = choices_[choice].held;
+      const bool is_needed = std::ranges::any_of(
+          held, [&](std::uint32_t k) { return holders_[k] == 1; });
+      if (is_needed) return false;
+      for (const std::uint32_t k : held) --holders_[k];
+      return true;
+    });
+    for (std::size_t& choice : chosen) choice = choices_[choice].candidate;
+    return chosen;
+  }
+
+ private:
+  struct Choice {
+    std::size_t candidate = 0;
+    std::size_t contacts = 0;
+    std::vector<std::uint32_t> held;  // wishes, ascending
+  };
+  struct Ranked {
+    double worth = 0;
+    std::size_t choice = 0;
+
+    bool operator<(const Ranked& other) const {
+      return worth != other.worth ? worth < other.worth : choice > other.choice;
+    }
+  };
+  using Cell = std::pair<int, int>;
+
+  Cell cell_of(Vec2 place) const {
+    return {static_cast<int>(std::floor(place.x / radius_)),
+            static_cast<int>(std::floor(place.y / radius_))};
+  }
+
+  template <typename Visit>
+  void visit_around(Vec2 place, const Visit& visit) const {
+    const Cell cell = cell_of(place);
+    for (int x = cell.first - 1; x <= cell.first + 1; ++x) {
+      for (int y = cell.second - 1; y <= cell.second + 1; ++y) {
+        const auto found = cells_.find({x, y});
+        if (found == cells_.end()) continue;
+        for (const std::uint32_t k : found->second) {
+          if (glm::distance(wishes_[k].place, place) <= radius_) visit(k);
+        }
+      }
+    }
+  }
+
+  double worth_of(const Choice& choice) const {
+    const auto left = std::ranges::count_if(
+        choice.held, [&](std::uint32_t k) { return holders_[k] == 0; });
+    return static_cast<double>(left) / static_cast<double>(choice.contacts);
+  }
+
+  const std::vector<Wish>& wishes_;
+  const double radius_;
+  std::vector<std::uint32_t> holders_;  // of each wish: contacts chosen so far
+  std::map<Cell, std::vector<std::uint32_t>> cells_;
+  std::vector<Choice> choices_;
+  std::priority_queue<Ranked> queue_;
+};
+
 class Finder {
  public:
-  Finder(const LayerSolids& solids, const SupportSizes& sizes)
-      : solids_(solids), sizes_(sizes) {
+  Finder(const LayerSolids& solids, const SupportSizes& sizes,
+         std::span<const MarkedPlaces> marked,
+         std::span<const Isometry> symmetries)
+      : solids_(solids),
+        sizes_(sizes),
+        marked_(marked),
+        symmetries_(symmetries) {
     const Layer nothing;
     sweep_.start(nothing.contours);
   }
 
-  std::vector<Contact> find() {
+  FoundContacts find() {
     for (std::size_t i = 0; i < solids_.count(); ++i) {
       const plane::Contours& contours = solids_.layer(i).contours;
       if (i > 0 && contours == solids_.layer(i - 1).contours) {
@@ -77,7 +196,7 @@ class Finder {
       take_layer(i);
     }
     hold_waiting({});
-    return std::move(contacts_);
+    return {std::move(contacts_), std::move(unwanted_)};
   }
 
  private:
@@ -117,7 +236,7 @@ class Finder {
     for (std::uint32_t loop = 0; loop < contours.loop_count(); ++loop) {
       if (is_wide[loop]) take_wide_ledges(i, loop, wishes[loop]);
       if (wishes[loop].empty()) continue;
-      hold(i, std::move(wishes[loop]), false, near_[loop]);
+      hold(i, std::move(wishes[loop]), false, loop);
     }
   }
 
@@ -160,7 +279,7 @@ class Finder {
     if (may_be_joined) {
       waiting_.push_back({i, loop, std::move(wishes)});
     } else {
-      hold(i, std::move(wishes), true, near_[loop]);
+      hold(i, std::move(wishes), true, loop);
     }
   }
 
@@ -178,7 +297,7 @@ class Finder {
                    });
           });
       if (is_joined) continue;
-      hold(island.layer, std::move(island.wishes), true, near_[island.region]);
+      hold(island.layer, std::move(island.wishes), true, island.region);
     }
     waiting_.clear();
   }
@@ -186,8 +305,8 @@ class Finder {
   void take_ledges(std::size_t i, std::span<const Vec2> loop,
                    std::vector<Wish>& wishes) const {
     visit_outline(loop, [&](Vec2 place) {
-      const double out = -solids_.depth(i - 1, place);
-      if (out > reach(i)) wishes.push_back({inwards(i, place), out});
+      if (!solids_.is_free(i - 1, place, reach(i))) return;
+      wishes.push_back({inwards(i, place), -solids_.depth(i - 1, place)});
     });
   }
 
@@ -196,9 +315,9 @@ class Finder {
     Box2 box;
     box.add(solids_.layer(i).contours.loop(outer));
     visit_grid(box, [&](Vec2 place) {
-      const double out = -solids_.depth(i - 1, place);
-      if (out > kWideLedge && solids_.depth(i, place) > 0) {
-        wishes.push_back({place, out});
+      if (solids_.is_free(i - 1, place, kWideLedge) &&
+          solids_.depth(i, place) > 0) {
+        wishes.push_back({place, -solids_.depth(i - 1, place)});
       }
     });
   }
@@ -231,39 +350,185 @@ class Finder {
     return best;
   }
 
-  // Adds contacts until all places are held, those that reach out farthest
-  // first.
-  //
-  // near   the contacts of the region
+  // Adds contacts until all places of a region are held, as far as the design
+  // wants any there.
   void hold(std::size_t i, std::vector<Wish> wishes, bool is_island,
-            std::vector<std::uint32_t>& near) {
-    const double least = hold_radius(sizes_.tip, 0);
+            std::uint32_t region) {
     const double height = solids_.layer(i).bottom;
+    const double least = hold_radius(sizes_.tip, 0);
+    const auto leave_out_held = [&] {
+      std::erase_if(wishes, [&](const Wish& wish) {
+        return is_held(wish, height, near_[region]);
+      });
+    };
     // Rounding must not decide: equal ones follow each other by their places.
     const auto rank = [](const Wish& wish) {
       const auto steps = [](double length) { return std::round(length * 1e3); };
       return std::tuple(-steps(wish.out), steps(wish.place.x),
                         steps(wish.place.y));
     };
+    leave_out_held();
     std::ranges::stable_sort(wishes, {}, rank);
-    for (const Wish& wish : wishes) {
-      if (is_held(wish, height, near)) continue;
-      near.push_back(static_cast<std::uint32_t>(contacts_.size()));
-      contacts_.push_back({Vec3(wish.place, height), away_from(i, wish),
-                           is_island || wish.out > least});
+    // The images of a contact may lie in other regions.
+    for (std::size_t before = wishes.size() + 1; wishes.size() < before;) {
+      before = wishes.size();
+      WishCover cover(wishes, reach_of_tip(sizes_.tip));
+      for (std::size_t k = 0; k < wishes.size(); ++k) {
+        if (tip_at(i, wishes[k].place) == 0) continue;
+        cover.add(k, orbit_of(centered(i, wishes[k])));
+      }
+      for (const std::size_t k : cover.choose()) {
+        add_contacts(i, wishes[k], is_island || wishes[k].out > least, region);
+      }
+      leave_out_held();
     }
+    if (!wishes.empty() && (is_island || wishes.front().out > least)) {
+      unwanted_.emplace_back(wishes.front().place, height);
+    }
+  }
+
+  // How far places may be from a contact so that between them all is held, too.
+  static double reach_of_tip(double tip, double height = 0) {
+    return hold_radius(tip, height) - kGrid * std::numbers::sqrt2 / 2;
+  }
+
+  // The places that look the same, each once.
+  std::vector<Vec2> orbit_of(Vec2 place) const {
+    std::vector<Vec2> orbit;
+    for (const Isometry& symmetry : symmetries_) {
+      const Vec2 image = moved(symmetry, place);
+      if (std::ranges::none_of(orbit, [&](Vec2 other) {
+            return glm::distance(other, image) < sizes_.tip / 4;
+          })) {
+        orbit.push_back(image);
+      }
+    }
+    return orbit;
+  }
+
+  // The diameter of a tip at a place of a layer, 0 where none is wanted. What
+  // the design subtracts is marked by what it leaves: it is in the layer below.
+  double tip_at(std::size_t i, Vec2 place) const {
+    constexpr double kTouch = 0.02;  // [mm]
+    for (const auto& [tip, solids] : marked_) {
+      if (solids.depth(i, place) > -kTouch ||
+          (i > 0 && solids.depth(i - 1, place) > -kTouch)) {
+        return tip;
+      }
+    }
+    return sizes_.tip;
+  }
+
+  // Adds a contact, and its images under the symmetries.
+  void add_contacts(std::size_t i, Wish wish, bool is_needed,
+                    std::uint32_t region) {
+    const std::size_t original = contacts_.size();
+    wish.place = centered(i, wish);
+    const auto fixing = symmetries_that_fix(wish.place);
+    Vec3 away(0);
+    for (const Isometry& symmetry : fixing) {
+      away += turned(symmetry, away_from(i, wish));
+    }
+    away = glm::normalize(away);
+    const double height = solids_.layer(i).bottom;
+    const double tip = tip_at(i, wish.place);
+    for (std::size_t k = 0; k < symmetries_.size(); ++k) {
+      const Isometry& symmetry = symmetries_[k];
+      const Vec2 place = k == 0 ? wish.place : moved(symmetry, wish.place);
+      const bool is_there = std::any_of(
+          contacts_.begin() + static_cast<std::ptrdiff_t>(original),
+          contacts_.end(), [&](const Contact& other) {
+            return glm::distance(Vec2(other.place), place) < sizes_.tip / 4;
+          });
+      if (is_there) continue;
+      const std::uint32_t around = k == 0 ? region : region_at(i, place);
+      if (around >= near_.size()) continue;
+      near_[around].push_back(static_cast<std::uint32_t>(contacts_.size()));
+      contacts_.push_back({Vec3(place, height),
+                           k == 0 ? away : turned(symmetry, away), tip,
+                           is_needed, original, k, sides_of(fixing, symmetry)});
+    }
+  }
+
+  std::vector<Isometry> symmetries_that_fix(Vec2 place) const {
+    std::vector<Isometry> fixing;
+    std::ranges::copy_if(
+        symmetries_, std::back_inserter(fixing), [&](const Isometry& symmetry) {
+          return glm::distance(moved(symmetry, place), place) < kFixed;
+        });
+    return fixing;
+  }
+
+  // The directions of the mirror that fixes a contact, as the symmetry turns
+  // them; straight down where more than a mirror does.
+  static std::vector<Vec2> sides_of(const std::vector<Isometry>& fixing,
+                                    const Isometry& symmetry) {
+    if (fixing.size() == 1) return {};
+    const Isometry& mirror = fixing[1];
+    if (fixing.size() > 2 || mirror[0].x * mirror[1].y > 0) return {Vec2(0)};
+    // It leaves the sum of a direction and its image as it is.
+    const Vec2 along = Vec2(1, 0) + mirror[0];
+    const Vec2 other = Vec2(0, 1) + mirror[1];
+    const Vec2 line =
+        glm::normalize(glm::length(along) > glm::length(other) ? along : other);
+    const Vec2 side = Vec2(turned(symmetry, Vec3(line, 0)));
+    return {side, -side};
+  }
+
+  // A place near a mirror or an axis goes onto it, so that one contact stands
+  // there and not one on each side, if that holds as much.
+  Vec2 centered(std::size_t i, const Wish& wish) const {
+    const double nearest = reach_of_tip(sizes_.tip);
+    Vec2 sum(0);
+    double count = 0;
+    for (const Isometry& symmetry : symmetries_) {
+      const Vec2 image = moved(symmetry, wish.place);
+      if (glm::distance(image, wish.place) > nearest) continue;
+      sum += image;
+      ++count;
+    }
+    const Vec2 middle = sum / count;
+    const double least_depth =
+        std::min(sizes_.tip / 2, solids_.depth(i, wish.place));
+    const bool is_fixed =
+        std::ranges::all_of(symmetries_, [&](const Isometry& symmetry) {
+          const double away = glm::distance(moved(symmetry, middle), middle);
+          return away < kFixed || away > nearest;
+        });
+    const bool is_fine =
+        is_fixed && solids_.depth(i, middle) >= least_depth / 2 &&
+        (i == 0 || solids_.depth(i - 1, middle) <
+                       solids_.depth(i - 1, wish.place) + sizes_.tip / 4) &&
+        tip_at(i, middle) > 0;
+    return is_fine ? middle : wish.place;
+  }
+
+  // The region of a layer that a place is in; kOutside where it is in none.
+  std::uint32_t region_at(std::size_t i, Vec2 place) const {
+    const plane::Contours& contours = solids_.layer(i).contours;
+    std::uint32_t region = kOutside;
+    double least = 0;
+    for (std::uint32_t loop = 0; loop < contours.loop_count(); ++loop) {
+      const double area = signed_area(contours.loop(loop));
+      if (area <= 0 || (region != kOutside && area >= least)) continue;
+      if (winding_number(contours.loop(loop), place) == 0) continue;
+      region = loop;
+      least = area;
+    }
+    return region;
   }
 
   // What stands near the part below needs less, the higher that has grown.
   bool is_held(const Wish& wish, double height,
                const std::vector<std::uint32_t>& near) const {
-    const double least = hold_radius(sizes_.tip, 0);
     return std::ranges::any_of(near, [&](std::uint32_t number) {
-      const Vec3 contact = contacts_[number].place;
-      const double radius = wish.out > kShare * least
-                                ? least
-                                : hold_radius(sizes_.tip, height - contact.z);
-      return glm::distance(Vec2(contact), wish.place) <= kShare * radius;
+      const Contact& contact = contacts_[number];
+      const double least = reach_of_tip(contact.tip);
+      const double radius =
+          wish.out > least
+              ? least
+              : reach_of_tip(contact.tip, height - contact.place.z);
+      return glm::distance(Vec2(contact.place), wish.place) <= radius;
     });
   }
 
@@ -287,16 +552,21 @@ class Finder {
   OverlaySweep sweep_;
   LayerOverlay overlay_;
   std::vector<Waiting> waiting_;
+  std::span<const MarkedPlaces> marked_;
+  std::span<const Isometry> symmetries_;
   std::vector<Contact> contacts_;
+  std::vector<Vec3> unwanted_;
   // Of each region of the layer in hand, by its loop: those that hold it.
   std::vector<std::vector<std::uint32_t>> near_;
 };
 
 }  // namespace
 
-std::vector<Contact> find_contacts(const LayerSolids& solids,
-                                   const SupportSizes& sizes) {
-  return Finder(solids, sizes).find();
+FoundContacts find_contacts(const LayerSolids& solids,
+                            const SupportSizes& sizes,
+                            std::span<const MarkedPlaces> marked,
+                            std::span<const Isometry> symmetries) {
+  return Finder(solids, sizes, marked, symmetries).find();
 }
 
 }  // namespace lamina::slicer::detail

@@ -47,4 +47,10 @@ class LayerSolids {
   std::vector<std::size_t> solid_of_;
 };
 
+// Where the design wants tips of another diameter; 0: none.
+struct MarkedPlaces {
+  double tip = 0;
+  LayerSolids solids;
+};
+
 }  // namespace lamina::slicer::detail

@@ -1,7 +1,10 @@
 #include "slicer/supports/detail/support_router.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -46,9 +49,10 @@ bool SupportRouter::is_free(const Rod& rod) const {
         2 * slope;
     double clearance = sizes_.clearance;
     if (is_head || is_tail) {
+      const double tip = std::min(rod.top_diameter, rod.bottom_diameter);
       const double from_tip = is_head ? rod.top.z - z : z - rod.bottom.z;
-      if (from_tip < sizes_.tip) continue;
-      clearance = std::min(clearance, (from_tip - sizes_.tip) / 2);
+      if (from_tip < tip) continue;
+      clearance = std::min(clearance, (from_tip - tip) / 2);
     }
     if (!solids_.is_free(i, flat(place), radius + clearance)) return false;
   }
@@ -60,13 +64,49 @@ bool SupportRouter::is_free_below(Vec3 place) const {
       {place, Vec3(flat(place), bed_), sizes_.pillar, sizes_.pillar});
 }
 
+bool SupportRouter::is_free(const Support& support) const {
+  const std::vector<Vec3>& path = support.path;
+  if (!is_free({support.contact, path[1], support.tip, sizes_.pillar})) {
+    return false;
+  }
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const bool is_last = i + 2 == path.size();
+    Rod rod = {path[i], path[i + 1], sizes_.pillar, sizes_.pillar};
+    if (is_last && support.end == SupportEnd::kPart) {
+      rod.bottom.z += sizes_.penetration;
+      rod.bottom_diameter = support.tip;
+    } else if (is_last && support.end == SupportEnd::kFoot) {
+      rod.bottom.z = bed_;
+    }
+    if (!is_free(rod)) return false;
+  }
+  return true;
+}
+
 std::optional<Support> SupportRouter::route(const Contact& contact) const {
+  if (!contact.sides.empty()) {
+    if (auto support = route(contact, contact.sides, false)) return support;
+  }
+  std::array<Vec2, kSides> all;
+  for (int k = 0; k < kSides; ++k) all[static_cast<std::size_t>(k)] = side(k);
+  if (auto support = route(contact, all, false)) return support;
+  return route(contact, all, true);
+}
+
+std::optional<Support> SupportRouter::route(const Contact& contact,
+                                            std::span<const Vec2> sides,
+                                            bool may_land) const {
   for (double length = sizes_.head; length >= kShortestHead; length /= 1.5) {
-    if (auto support = with_head(contact, contact.away, length)) return support;
+    if (auto support =
+            with_head(contact, contact.away, length, sides, may_land)) {
+      return support;
+    }
     for (const double slope : {0.0, 0.5, 1.0}) {
-      for (int k = 0; k < (slope == 0 ? 1 : kSides); ++k) {
-        const Vec3 away = glm::normalize(Vec3(slope * side(k), -1));
-        if (auto support = with_head(contact, away, length)) return support;
+      for (const Vec2 side : slope == 0 ? sides.first(1) : sides) {
+        const Vec3 away = glm::normalize(Vec3(slope * side, -1));
+        if (auto support = with_head(contact, away, length, sides, may_land)) {
+          return support;
+        }
       }
     }
   }
@@ -74,20 +114,26 @@ std::optional<Support> SupportRouter::route(const Contact& contact) const {
 }
 
 std::optional<Support> SupportRouter::with_head(const Contact& contact,
-                                                Vec3 away,
-                                                double length) const {
+                                                Vec3 away, double length,
+                                                std::span<const Vec2> sides,
+                                                bool may_land) const {
   Support support;
   support.contact = contact.place;
+  support.tip = contact.tip;
   const Vec3 end = contact.place + away * length;
-  if (!is_free({contact.place, end, sizes_.tip, sizes_.pillar})) {
+  if (!is_free({contact.place, end, contact.tip, sizes_.pillar})) {
     return std::nullopt;
   }
   support.path = {contact.place - away * sizes_.penetration, end};
-  if (add_way_to_bed(support) || add_way_to_part(support)) return support;
+  if (add_way_to_bed(support, sides) ||
+      (may_land && add_way_to_part(support))) {
+    return support;
+  }
   return std::nullopt;
 }
 
-bool SupportRouter::add_way_to_bed(Support& support) const {
+bool SupportRouter::add_way_to_bed(Support& support,
+                                   std::span<const Vec2> sides) const {
   const Vec3 from = support.path.back();
   const double lowest = bed_ + sizes_.foot_height;
   if (from.z <= lowest) return false;
@@ -98,8 +144,8 @@ bool SupportRouter::add_way_to_bed(Support& support) const {
   for (double distance = kSidestep; distance <= kFarthest;
        distance += kSidestep) {
     if (from.z - distance <= lowest) return false;
-    for (int k = 0; k < kSides; ++k) {
-      const Vec3 bend(flat(from) + distance * side(k), from.z - distance);
+    for (const Vec2 side : sides) {
+      const Vec3 bend(flat(from) + distance * side, from.z - distance);
       if (!is_free_below(bend) ||
           !is_free({from, bend, sizes_.pillar, sizes_.pillar})) {
         continue;
@@ -116,22 +162,81 @@ bool SupportRouter::add_way_to_bed(Support& support) const {
 bool SupportRouter::add_way_to_part(Support& support) const {
   const Vec3 from = support.path.back();
   for (std::size_t i = solids_.layer_above(from.z); i-- > 0;) {
-    if (solids_.depth(i, flat(from)) < sizes_.tip / 2) continue;
+    if (solids_.depth(i, flat(from)) < support.tip / 2) continue;
     const double top = solids_.layer(i).top;
     const double length = std::min(sizes_.head, (from.z - top) / 2);
     if (length < kShortestHead / 2) return false;
     const Vec3 neck(flat(from), top + length);
     const Vec3 tip(flat(from), top);
     if (!is_free({from, neck, sizes_.pillar, sizes_.pillar}) ||
-        !is_free({neck, tip, sizes_.pillar, sizes_.tip})) {
+        !is_free({neck, tip, sizes_.pillar, support.tip})) {
       return false;
     }
-    support.stands_on_part = true;
+    support.end = SupportEnd::kPart;
     support.path.push_back(neck);
     support.path.push_back(tip - Vec3(0, 0, sizes_.penetration));
     return true;
   }
   return false;
+}
+
+std::vector<Brace> SupportRouter::find_braces(
+    std::span<const Support> supports) const {
+  // Of pillars that stand on the bed [mm].
+  constexpr double kTall = 15;
+  constexpr double kVeryTall = 35;
+  constexpr double kLongest = 10;
+  // Neighbours whose distances differ by less are equally near.
+  constexpr double kSameDistance = 1e-3;
+
+  struct Pillar {
+    Vec2 place;
+    double height;  // above the bed
+  };
+  std::vector<Pillar> pillars;
+  for (const Support& support : supports) {
+    if (support.end != SupportEnd::kFoot) continue;
+    const Vec3 top = support.path[support.path.size() - 2];
+    pillars.push_back({flat(top), top.z - bed_});
+  }
+  std::set<std::pair<std::size_t, std::size_t>> neighbours;
+  for (std::size_t i = 0; i < pillars.size(); ++i) {
+    if (pillars[i].height <= kTall) continue;
+    double nearest = kLongest;
+    const auto distance_to = [&](std::size_t k) {
+      const double distance = glm::distance(pillars[i].place, pillars[k].place);
+      const double common = std::min(pillars[i].height, pillars[k].height);
+      const bool fits = k != i && distance > 2 * sizes_.pillar &&
+                        common > 2 * distance + sizes_.foot_height;
+      return fits ? distance : kLongest + 1;
+    };
+    for (std::size_t k = 0; k < pillars.size(); ++k) {
+      nearest = std::min(nearest, distance_to(k));
+    }
+    for (std::size_t k = 0; k < pillars.size(); ++k) {
+      if (distance_to(k) > std::min(nearest + kSameDistance, kLongest))
+        continue;
+      neighbours.insert(std::minmax(i, k));
+    }
+  }
+  std::vector<Brace> braces;
+  for (const auto& [i, k] : neighbours) {
+    const Pillar& a = pillars[i];
+    const Pillar& b = pillars[k];
+    const double half = glm::distance(a.place, b.place) / 2;
+    const double height = std::min(a.height, b.height);
+    const int count = height > kVeryTall ? 2 : 1;
+    for (int n = 1; n <= count; ++n) {
+      const double middle = bed_ + height * n / (count + 1);
+      for (const auto& [high, low] : {std::pair(a, b), std::pair(b, a)}) {
+        const Vec3 top(high.place, middle + half);
+        const Vec3 bottom(low.place, middle - half);
+        if (!is_free({top, bottom, sizes_.brace, sizes_.brace})) continue;
+        braces.push_back({top, bottom});
+      }
+    }
+  }
+  return braces;
 }
 
 }  // namespace lamina::slicer::detail

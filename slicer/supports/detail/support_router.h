@@ -2,6 +2,8 @@
 // The way of a support down, which keeps clear of the part.
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "slicer/supports/detail/contact_finder.h"
 #include "slicer/supports/detail/layer_solids.h"
@@ -18,6 +20,12 @@ class SupportRouter {
   // No value where no way was found.
   std::optional<Support> route(const Contact& contact) const;
 
+  // Whether a support touches the part with its tips only.
+  bool is_free(const Support& support) const;
+
+  // Crosses of two rods, leaning by 45°, from tall pillars to their neighbours.
+  std::vector<Brace> find_braces(std::span<const Support> supports) const;
+
  private:
   // A part of a way: a cone from a ball to another one below it.
   struct Rod {
@@ -28,9 +36,14 @@ class SupportRouter {
   };
   bool is_free(const Rod& rod) const;
   bool is_free_below(Vec3 place) const;
+  // sides  to which heads and pillars may lean
+  std::optional<Support> route(const Contact& contact,
+                               std::span<const Vec2> sides,
+                               bool may_land) const;
   std::optional<Support> with_head(const Contact& contact, Vec3 away,
-                                   double length) const;
-  bool add_way_to_bed(Support& support) const;
+                                   double length, std::span<const Vec2> sides,
+                                   bool may_land) const;
+  bool add_way_to_bed(Support& support, std::span<const Vec2> sides) const;
   bool add_way_to_part(Support& support) const;
 
   const LayerSolids& solids_;

@@ -101,7 +101,8 @@ TEST(EstimatePrint, WeighsAndPrices) {
   Material resin = find_material("prusa-orange-tough");
   resin.price = Price{60, "EUR", "l"};
   const Machine machine = {{}, resin, {}};
-  const PrintEstimate estimate = estimate_print(machine, kLayer, 100, 2500);
+  const PrintEstimate estimate =
+      estimate_print(machine, kLayer, 100, 2500, 2500);
   EXPECT_DOUBLE_EQ(estimate.grams, 2.75);
   EXPECT_DOUBLE_EQ(estimate.price, 0.15);
   EXPECT_EQ(estimate.seconds, 0);
@@ -113,7 +114,7 @@ TEST(EstimatePrint, KnowsTheResinAndTheMetalThatIsCast) {
   Machine machine = {find_printer("prusa-sl1"), find_material("bluecast-x10"),
                      find_material("gold-750")};
   machine.metal->price = Price{80, "EUR", "g"};
-  const PrintEstimate estimate = estimate_print(machine, kLayer, 1, 256);
+  const PrintEstimate estimate = estimate_print(machine, kLayer, 1, 256, 256);
   EXPECT_DOUBLE_EQ(estimate.grams, 1.1 * 0.256);
   EXPECT_DOUBLE_EQ(estimate.metal_grams, 15.4 * 0.256);
   EXPECT_DOUBLE_EQ(estimate.metal_price, 80 * 15.4 * 0.256);
@@ -130,9 +131,10 @@ TEST(EstimateText, SaysWhatIsKnown) {
   EXPECT_EQ(estimate_text({}, {}), "");
   const Machine machine = {
       find_printer("elegoo-mars-3"), {}, find_material("fine-silver")};
-  EXPECT_EQ(estimate_text(machine, estimate_print(machine, kLayer, 480, 256)),
-            "2.69 g of fine silver, 2 h 16 min on Elegoo Mars 3 if a layer is "
-            "exposed for 8 s");
+  EXPECT_EQ(
+      estimate_text(machine, estimate_print(machine, kLayer, 480, 256, 256)),
+      "2.69 g of fine silver, 2 h 16 min on Elegoo Mars 3 if a layer is "
+      "exposed for 8 s");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "slicer/check/print/layer_graph.h"
@@ -76,7 +77,7 @@ struct Supported {
     };
     for (const Support& support : plan.supports) {
       add(support.path.front(), -1);
-      if (support.stands_on_part) add(support.path.back(), 1);
+      if (support.end == SupportEnd::kPart) add(support.path.back(), 1);
     }
     return area;
   }
@@ -132,7 +133,8 @@ TEST(Supports, StandOnTheBedWhereTheyCan) {
   const Supported table(
       "translate([0, 0, 8]) cube([14, 14, 2]); cube([3, 3, 9]);");
   for (const Support& support : table.plan.supports) {
-    EXPECT_FALSE(support.stands_on_part);
+    EXPECT_NE(support.end, SupportEnd::kPart);
+    if (support.end != SupportEnd::kFoot) continue;
     EXPECT_NEAR(support.path.back().z,
                 table.plan.bed + table.plan.sizes.foot_height, 1e-9);
   }
@@ -140,8 +142,192 @@ TEST(Supports, StandOnTheBedWhereTheyCan) {
   const Supported box(
       "difference() { cube(30); translate([1, 1, 1]) cube([28, 28, 28]); } "
       "translate([0, 10, 15]) cube([25, 10, 1]);");
-  EXPECT_TRUE(std::ranges::any_of(box.plan.supports, &Support::stands_on_part));
+  EXPECT_GT(box.plan.count_on_part(), 0U);
   expect_lawful(box);
+}
+
+SupportPlan plan_of(const std::string& text, const SupportSizes& sizes = {}) {
+  Settings settings;
+  settings.layer_thickness = kThickness;
+  const Design part = Design::from_text(text);
+  return plan_supports(support::slice_layers(part.scene(), settings), sizes);
+}
+
+// The greatest distance from an image of a place on a support, turned about
+// the origin and then mirrored in the x axis if asked, to the like place of
+// another support.
+double asymmetry(const SupportPlan& plan, double angle, bool is_mirrored) {
+  const auto image = [&](Vec3 place) {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    const double y = s * place.x + c * place.y;
+    return Vec3(c * place.x - s * place.y, is_mirrored ? -y : y, place.z);
+  };
+  double greatest = 0;
+  for (const Support& support : plan.supports) {
+    double nearest = 1e300;
+    for (const Support& other : plan.supports) {
+      if (other.path.size() != support.path.size()) continue;
+      double farthest = 0;
+      for (std::size_t i = 0; i < support.path.size(); ++i) {
+        farthest = std::max(
+            farthest, glm::distance(image(support.path[i]), other.path[i]));
+      }
+      nearest = std::min(nearest, farthest);
+    }
+    greatest = std::max(greatest, nearest);
+  }
+  return greatest;
+}
+
+TEST(Supports, AreAsSymmetricAsThePart) {
+  struct Case {
+    std::string part;
+    int turns;
+    bool has_mirror;
+  };
+  const std::string arm =
+      "translate([0, -1, 8]) cube([12, 2, 2]); "
+      "translate([9, -3, 6]) cube([2, 6, 2]);";
+  const std::string bent =
+      "translate([0, -1, 8]) cube([12, 2, 2]); "
+      "translate([9, 0, 6]) cube([2, 6, 2]);";
+  const std::string post = "cylinder(r = 2, h = 10, $fn = 60); ";
+  const std::string dome =
+      "difference() { sphere(9, $fn = 48); translate([0, 0, -3]) "
+      "cube(12, center = true); }";
+  for (const Case& one : {
+           Case{post + "for (a = [0 : 90 : 270]) rotate(a) { " + arm + " }", 4,
+                true},
+           Case{post + "for (a = [0 : 120 : 240]) rotate(a) { " + bent + " }",
+                3, false},
+           Case{post + "for (a = [0 : 72 : 288]) rotate(a) { " + arm + " }", 5,
+                true},
+           Case{post + "for (a = [0 : 60 : 300]) rotate(a) { " + bent + " }", 6,
+                false},
+           Case{"cube([20, 20, 3], center = true);", 4, true},
+           Case{"cube([30, 9, 3], center = true);", 2, true},
+           Case{dome, 4, true},
+       }) {
+    SCOPED_TRACE(one.part);
+    const SupportPlan plan = plan_of(one.part);
+    EXPECT_FALSE(plan.supports.empty());
+    EXPECT_TRUE(plan.unheld.empty());
+    for (int k = 1; k < one.turns; ++k) {
+      EXPECT_LT(asymmetry(plan, 2 * std::numbers::pi * k / one.turns, false),
+                1e-3);
+    }
+    if (one.has_mirror) {
+      EXPECT_LT(asymmetry(plan, 0, true), 1e-3);
+    }
+  }
+}
+
+// All corners of its layers lie on it when it is turned by 90°, but it is not.
+TEST(Supports, AreNotMoreSymmetricThanThePart) {
+  const SupportPlan plan = plan_of(
+      "difference() { cube(20, center = true); cube([16, 22, 16], "
+      "center = true); }");
+  EXPECT_TRUE(plan.unheld.empty());
+  EXPECT_LT(asymmetry(plan, std::numbers::pi, false), 1e-3);
+  for (const Support& support : plan.supports) {
+    const bool is_inside = support.contact.z > -9.9;
+    if (is_inside) {
+      EXPECT_LT(std::abs(support.contact.x), 8);
+    }
+  }
+}
+
+TEST(Supports, AreTiedToTheirNeighboursWhereTheyAreTall) {
+  const std::string table =
+      "translate([0, 0, 40]) cube([14, 14, 2]); cube([2, 2, 41]);";
+  const Supported tall(table);
+  EXPECT_FALSE(tall.plan.braces.empty());
+  for (const auto& [from, to] : tall.plan.braces) {
+    EXPECT_NEAR(glm::distance(Vec2(from), Vec2(to)), from.z - to.z, 1e-6);
+    EXPECT_LE(from.z - to.z, 10);
+  }
+  expect_lawful(tall);
+  EXPECT_TRUE(
+      plan_of("translate([0, 0, 6]) cube([14, 14, 2]); cube([2, 2, 7]);")
+          .braces.empty());
+}
+
+// What two pillars take is more than a branch and a trunk.
+TEST(Supports, MergeToTreesWhereThatSavesResin) {
+  const std::string bars =
+      "translate([0, 0, 30]) { cube([9, 1, 1]); translate([0, 4, 0]) "
+      "cube([9, 1, 1]); cube([1, 5, 1]); } cube([1, 1, 30]);";
+  const Supported made(bars);
+  std::size_t branches = 0;
+  for (const Support& support : made.plan.supports) {
+    if (support.end != SupportEnd::kPillar) continue;
+    ++branches;
+    const Vec3 joint = support.path.back();
+    const Vec3 top = support.path[support.path.size() - 2];
+    EXPECT_NEAR(glm::distance(Vec2(joint), Vec2(top)), top.z - joint.z, 1e-6);
+    EXPECT_TRUE(
+        std::ranges::any_of(made.plan.supports, [&](const Support& other) {
+          return other.end == SupportEnd::kFoot &&
+                 glm::distance(Vec2(other.path.back()), Vec2(joint)) < 1e-6 &&
+                 other.path[other.path.size() - 2].z >= joint.z - 1e-6;
+        }));
+  }
+  EXPECT_GT(branches, 0U);
+  expect_lawful(made);
+}
+
+TEST(Supports, StandOnOneRaftIfAsked) {
+  const Supported made("translate([0, 0, 8]) cube([14, 14, 2]);",
+                       {.has_raft = true});
+  expect_lawful(made);
+  EXPECT_EQ(made.print.count(FindingKind::kSuctionCup), 0U);
+  const Design whole =
+      Design::from_text("translate([0, 0, 8]) cube([14, 14, 2]);" + made.lines);
+  const auto first =
+      support::slice_heights(whole.scene(), {made.plan.bed + 0.5});
+  EXPECT_EQ(first[0].contours.loop_count(), 1U);
+}
+
+TEST(Supports, LeaveThePartItsLayers) {
+  // 5 mm are no whole number of layers.
+  Settings settings;
+  settings.layer_thickness = 0.03;
+  const Design part = Design::from_text("translate([0, 0, 2]) sphere(4);");
+  const auto layers = support::slice_layers(part.scene(), settings);
+  const SupportPlan plan = plan_supports(layers, {});
+  const double lift = (layers.front().bottom - plan.bed) / 0.03;
+  EXPECT_NEAR(lift, std::round(lift), 1e-6);
+  EXPECT_GE(lift * 0.03, 5 - 1e-9);
+  EXPECT_LT(lift * 0.03, 5.03);
+}
+
+TEST(Supports, AreWhereTheDesignWantsThem) {
+  const std::string shelf = "translate([0, 0, 8]) cube([30, 6, 1]);";
+  Settings settings;
+  settings.layer_thickness = kThickness;
+  const Design part = Design::from_text(shelf);
+  const auto layers = support::slice_layers(part.scene(), settings);
+  std::vector<double> heights;
+  for (const Layer& layer : layers) heights.push_back(layer.section_z);
+  const auto marked = [&](double tip, const std::string& text) {
+    const Design leaf = Design::from_text(text);
+    return MarkedSolid{tip, support::slice_heights(leaf.scene(), heights)};
+  };
+  const std::vector<MarkedSolid> marks = {
+      marked(0, "translate([0, 0, 8]) cube([1.2, 6, 1]);"),
+      marked(0.5, "translate([20, 0, 8]) cube([10, 6, 1]);")};
+  const SupportPlan plan = plan_supports(layers, {}, marks);
+  EXPECT_TRUE(plan.unwanted.empty());
+  for (const Support& support : plan.supports) {
+    EXPECT_GT(support.contact.x, 1.2);
+    EXPECT_EQ(support.tip, support.contact.x > 19.98 ? 0.5 : 0.3);
+  }
+  // Where nothing near may hold it, that is said.
+  const std::vector<MarkedSolid> none = {marked(0, shelf)};
+  const SupportPlan without = plan_supports(layers, {}, none);
+  EXPECT_TRUE(without.supports.empty());
+  EXPECT_EQ(without.unwanted.size(), 1U);
 }
 
 TEST(Supports, AreTheSameForAPartThatIsShifted) {
