@@ -198,6 +198,8 @@ nlohmann::ordered_json finding_json(const Finding& finding) {
       break;
     case FindingKind::kOverhang:
       json["distance_mm"] = finding.distance;
+      json["is_weak"] = finding.is_weak();
+      json["bond"] = finding.bond;
       break;
     default:
       json["volume_mm3"] = finding.volume;

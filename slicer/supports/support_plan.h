@@ -30,16 +30,15 @@ namespace lamina::slicer {
 
 // All in mm.
 struct SupportSizes {
-  double tip = 0.3;           // diameter where it touches the part
-  double penetration = 0.15;  // of the tip into the part
-  double head = 2.5;          // length of the cone, at most
-  double pillar = 1;          // diameter
-  double brace = 0.6;         // diameter
-  double foot = 3;            // diameter on the bed
-  double foot_height = 1;     // and that of a raft
-  double lift = 5;            // of the part over the bed, at least
-  double clearance = 0.5;     // between the part and all but the tips
-  bool has_raft = false;      // in the place of feet
+  double tip = 0.3;        // diameter where it touches the part
+  double head = 2.5;       // length of the cone, at most
+  double pillar = 1;       // diameter
+  double brace = 0.6;      // diameter
+  double foot = 3;         // diameter on the bed
+  double foot_height = 1;  // and that of a raft
+  double lift = 5;         // of the part over the bed, at least
+  double clearance = 0.5;  // between the part and all but the tips
+  bool has_raft = false;   // in the place of feet
 };
 
 // How far from a contact it holds the part [mm].
@@ -53,6 +52,7 @@ enum class SupportEnd : std::uint8_t { kFoot, kPart, kPillar };
 struct Support {
   Vec3 contact = Vec3(0);  // the middle of the tip
   double tip = 0;          // its diameter [mm]
+  double depth = 0;        // of the tip in the part, usually half of that [mm]
   // From inside the tip down: the end of the head, bends, the lowest point.
   std::vector<Vec3> path;
   SupportEnd end = SupportEnd::kFoot;

@@ -19,14 +19,24 @@ module support_rod(from, to, d1, d2) {
   }
 }
 
+// How thick the end of a cone inside the part is, for it to touch the part with
+// the tip's diameter, and not to come out of the other side.
+function support_end(inside, neck, tip, depth) =
+  min(2 * depth, tip - (support_pillar - tip) * depth /
+                       (norm(neck - inside) - depth));
+
 // A way down: from inside the part, down the head, past bends, to the foot on
 // the bed; or, if it lands, to a second tip inside the part; or, if it joins, to
 // another pillar.
-module support_of(path, lands = false, joins = false, tip = support_tip) {
+module support_of(path, lands = false, joins = false, tip = support_tip,
+                  depth = support_tip / 2) {
   last = len(path) - 1;
   for (i = [0 : last - 1])
-    support_rod(path[i], path[i + 1], i == 0 ? tip : support_pillar,
-                lands && i == last - 1 ? tip : support_pillar);
+    support_rod(path[i], path[i + 1],
+                i == 0 ? support_end(path[0], path[1], tip, depth) : support_pillar,
+                lands && i == last - 1
+                  ? support_end(path[last], path[last - 1], tip, depth)
+                  : support_pillar);
   if (!lands && !joins)
     translate(path[last] - [0, 0, support_foot_height])
       cylinder(d1 = support_foot, d2 = support_pillar, h = support_foot_height,
@@ -121,6 +131,9 @@ class TextMaker {
     if (support.end == SupportEnd::kPart) text_ += ", lands = true";
     if (support.end == SupportEnd::kPillar) text_ += ", joins = true";
     if (support.tip != plan_.sizes.tip) add(", tip = {}", word(support.tip));
+    if (support.depth != plan_.sizes.tip / 2) {
+      add(", depth = {}", word(support.depth));
+    }
     text_ += ");";
     if (!support.holds.empty()) add("  // {}", support.holds);
     text_ += '\n';

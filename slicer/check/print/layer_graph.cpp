@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "plane/loop_area.h"
+#include "plane/region/boolean.h"
 #include "slicer/check/print/pole.h"
 #include "slicer/contour/deviation.h"
 
@@ -83,6 +84,7 @@ void merge(Finding& kept, const Finding& other) {
   kept.area = std::max(kept.area, other.area);
   kept.width = std::max(kept.width, other.width);
   kept.volume += other.volume;
+  kept.bond = std::min(kept.bond, other.bond);
   kept.box.add(other.box);
 }
 
@@ -103,8 +105,12 @@ std::string size_text(const Finding& finding) {
               ? fmt::format("held from layer {} on", finding.last_layer + 1)
               : "never held");
     case FindingKind::kOverhang:
-      return fmt::format("{:.4g} mm², reaches out {:.3g} mm", finding.area,
-                         finding.distance);
+      return fmt::format("{:.4g} mm², reaches out {:.3g} mm{}", finding.area,
+                         finding.distance,
+                         finding.is_weak()
+                             ? fmt::format(", {:.0f} % of its layer holds it",
+                                           100 * finding.bond)
+                             : "");
     default:
       return fmt::format("{:.4g} mm³, {:.4g} mm² at most", finding.volume,
                          finding.area);
@@ -426,6 +432,9 @@ void LayerGraph::take_overhangs(const Layer& layer,
     finding.area = overhang.area;
     finding.distance = overhang.distance;
     finding.place = overhang.place;
+    if (overhang.distance > kFarReach) {
+      finding.bond = bond_of(layer, overhang.region);
+    }
     finding.box = {Vec3(overhang.box.low, layer.bottom),
                    Vec3(overhang.box.high, layer.top)};
     const std::uint32_t number = overhang_sets_.add();
@@ -443,6 +452,13 @@ void LayerGraph::take_overhangs(const Layer& layer,
   patches_.erase(patches_.begin(), patches_.begin() + kept);
   patch_overhangs_.erase(patch_overhangs_.begin(),
                          patch_overhangs_.begin() + kept);
+}
+
+// Of a region, which is not empty: the share that lies on the layer below.
+double LayerGraph::bond_of(const Layer& layer, std::uint32_t region) const {
+  const std::array<plane::Region, 2> both = {
+      to_region(contours_of(layer, region)), to_region(last_)};
+  return plane::area(plane::intersect(both)) / plane::area(both[0]);
 }
 
 void LayerGraph::join_overhangs(std::uint32_t a, std::uint32_t b) {

@@ -12,7 +12,8 @@
 //   loose part   component of solid that reaches neither bed nor another one;
 //                where it begins is no island besides
 //   overhang     part of a solid region that is farther than its reach from
-//                all that is solid below
+//                all that is solid below. It hangs by a weak bond where it
+//                reaches far and its region lies on little
 //   suction cup  void that no way leads out of through the layers built so far.
 //                Parts hang from the plate, which closes what opens to the bed;
 //                what opens only higher up is closed by the film
@@ -50,6 +51,13 @@ namespace lamina::slicer {
 // hardened through the layer that joins it.
 inline constexpr double kPeakArea = 0.1;
 
+// A region that reaches out farther than this is weak if it lies on what is
+// below with a smaller share of its area than that. The usual tip of a support
+// holds so far [mm] (hold_radius() in slicer/supports); the share is the one
+// from which UVtools takes a region to be held.
+inline constexpr double kFarReach = 2.4;
+inline constexpr double kWeakBond = 0.25;
+
 // "island", "loose part", …
 std::string_view name_of(FindingKind kind);
 
@@ -74,9 +82,13 @@ struct Finding {
   // long strip, half the side of a square. Overhangs have none [mm].
   double width = 0;
   double distance = 0;  // of an overhang, to what holds it [mm]
+  // Of an overhang: the share of its region that lies on what is below, the
+  // least of all layers, where it reaches far.
+  double bond = 1;
   Box3 box;
   // An island that another part reaches: then in layer last_layer + 1.
   bool is_joined = false;
+  bool is_weak() const { return bond < kWeakBond; }
   std::uint32_t instance = kNoInstance;  // what made it, where that is known
 };
 
@@ -146,6 +158,7 @@ class LayerGraph {
   void take_area(double area);
   plane::Contours contours_of(const Layer& layer, std::uint32_t region) const;
   double width_of(const Layer& layer, std::uint32_t region) const;
+  double bond_of(const Layer& layer, std::uint32_t region) const;
   void take_overhangs(const Layer& layer, const LayerOverlay& overlay);
   void extend(const Layer& layer);
   Finding begin_finding(FindingKind kind, const Layer& layer) const;

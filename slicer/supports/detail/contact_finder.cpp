@@ -33,7 +33,8 @@ constexpr double kFixed = 1e-6;
 // A place that must be within reach of a contact.
 struct Wish {
   Vec2 place = Vec2(0);
-  double out = 0;  // how far it is from what is below [mm]
+  double out = 0;           // how far it is from what is below [mm]
+  bool is_contact = false;  // a contact stands there in any case
 };
 
 // A region of a layer: an outer loop and its holes.
@@ -269,17 +270,58 @@ class Finder {
         wishes.push_back({inwards(i, place), 0});
       });
     }
-    Box2 box;
-    box.add(region.loop(0));
-    visit_grid(box, [&](Vec2 place) {
+    visit_grid(region, [&](Vec2 place) {
       const double depth = solids_.depth(i, place);
       if (depth > sizes_.tip / 2) wishes.push_back({place, depth});
     });
+    add_ends(i, region, wishes);
     const bool may_be_joined = i > 0 && overlay_.areas[loop] < kPeakArea;
     if (may_be_joined) {
       waiting_.push_back({i, loop, std::move(wishes)});
     } else {
       hold(i, std::move(wishes), true, loop);
+    }
+  }
+
+  // A bar that one contact could hold would tilt on it: two stand below its
+  // quarters. PrusaSlicer does so from a skeleton of 1.66 mm on, for a tip of
+  // 0.4 mm; what is longer than 6.5 mm needs more of them anyhow.
+  void add_ends(std::size_t i, const plane::Contours& region,
+                std::vector<Wish>& wishes) const {
+    constexpr double kShortest = 1.66 / 0.4;
+    Vec2 middle(0);
+    for (const Wish& wish : wishes) middle += wish.place;
+    middle /= static_cast<double>(wishes.size());
+    double xx = 0;
+    double xy = 0;
+    double yy = 0;
+    for (const Wish& wish : wishes) {
+      const Vec2 arm = wish.place - middle;
+      xx += arm.x * arm.x;
+      xy += arm.x * arm.y;
+      yy += arm.y * arm.y;
+    }
+    const double angle = std::atan2(2 * xy, xx - yy) / 2;
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    Box2 box;  // along the bar and across it
+    for (const Vec2& point : region.points) {
+      const Vec2 arm = point - middle;
+      box.add(Vec2(glm::dot(arm, along), arm.y * along.x - arm.x * along.y));
+    }
+    const double length = box.size().x - box.size().y;
+    if (length < kShortest * sizes_.tip ||
+        box.size().x > 2 * reach_of_tip(sizes_.tip)) {
+      return;
+    }
+    for (const double quarter : {-0.25, 0.25}) {
+      const Vec2 wanted =
+          middle + along * (box.center().x + quarter * box.size().x);
+      Wish end = *std::ranges::min_element(wishes, {}, [&](const Wish& wish) {
+        return std::round(1e3 * glm::distance(wish.place, wanted));
+      });
+      if (solids_.depth(i, wanted) > sizes_.tip / 4) end.place = wanted;
+      end.is_contact = true;
+      wishes.push_back(end);
     }
   }
 
@@ -312,26 +354,30 @@ class Finder {
 
   void take_wide_ledges(std::size_t i, std::uint32_t outer,
                         std::vector<Wish>& wishes) const {
-    Box2 box;
-    box.add(solids_.layer(i).contours.loop(outer));
-    visit_grid(box, [&](Vec2 place) {
+    const plane::Contours region =
+        region_of(solids_.layer(i).contours, overlay_, outer);
+    visit_grid(region, [&](Vec2 place) {
       if (solids_.is_free(i - 1, place, kWideLedge) &&
-          solids_.depth(i, place) > 0) {
+          solids_.depth(i, place) > sizes_.tip / 2) {
         wishes.push_back({place, -solids_.depth(i - 1, place)});
       }
     });
   }
 
-  // Places in the box, symmetric about its middle.
+  // Places of a region on a grid that is symmetric about its middle.
   template <typename Visit>
-  static void visit_grid(const Box2& box, const Visit& visit) {
+  static void visit_grid(const plane::Contours& region, const Visit& visit) {
+    const plane::EdgeTree edges(region);
+    Box2 box;
+    box.add(region.loop(0));
     const Vec2 middle = box.center();
     const Vec2 half = (box.high - box.low) / 2.0;
     const auto columns = static_cast<int>(half.x / kGrid);
     const auto rows = static_cast<int>(half.y / kGrid);
     for (int column = -columns; column <= columns; ++column) {
       for (int row = -rows; row <= rows; ++row) {
-        visit(middle + Vec2(column, row) * kGrid);
+        const Vec2 place = middle + Vec2(column, row) * kGrid;
+        if (edges.winding_number(place) > 0) visit(place);
       }
     }
   }
@@ -367,18 +413,22 @@ class Finder {
       return std::tuple(-steps(wish.out), steps(wish.place.x),
                         steps(wish.place.y));
     };
+    for (const Wish& wish : wishes) {
+      if (!wish.is_contact || tip_at(i, wish.place) == 0) continue;
+      add_contacts(i, wish, true, region, symmetries_);
+    }
     leave_out_held();
     std::ranges::stable_sort(wishes, {}, rank);
-    // The images of a contact may lie in other regions.
-    for (std::size_t before = wishes.size() + 1; wishes.size() < before;) {
-      before = wishes.size();
+    // What images hold too little of is held by contacts that have none.
+    for (const auto symmetries : {symmetries_, symmetries_.first(1)}) {
       WishCover cover(wishes, reach_of_tip(sizes_.tip));
       for (std::size_t k = 0; k < wishes.size(); ++k) {
         if (tip_at(i, wishes[k].place) == 0) continue;
-        cover.add(k, orbit_of(centered(i, wishes[k])));
+        cover.add(k, orbit_of(centered(i, wishes[k], symmetries), symmetries));
       }
       for (const std::size_t k : cover.choose()) {
-        add_contacts(i, wishes[k], is_island || wishes[k].out > least, region);
+        add_contacts(i, wishes[k], is_island || wishes[k].out > least, region,
+                     symmetries);
       }
       leave_out_held();
     }
@@ -393,9 +443,10 @@ class Finder {
   }
 
   // The places that look the same, each once.
-  std::vector<Vec2> orbit_of(Vec2 place) const {
+  std::vector<Vec2> orbit_of(Vec2 place,
+                             std::span<const Isometry> symmetries) const {
     std::vector<Vec2> orbit;
-    for (const Isometry& symmetry : symmetries_) {
+    for (const Isometry& symmetry : symmetries) {
       const Vec2 image = moved(symmetry, place);
       if (std::ranges::none_of(orbit, [&](Vec2 other) {
             return glm::distance(other, image) < sizes_.tip / 4;
@@ -421,10 +472,12 @@ class Finder {
 
   // Adds a contact, and its images under the symmetries.
   void add_contacts(std::size_t i, Wish wish, bool is_needed,
-                    std::uint32_t region) {
+                    std::uint32_t region,
+                    std::span<const Isometry> symmetries) {
     const std::size_t original = contacts_.size();
-    wish.place = centered(i, wish);
-    const auto fixing = symmetries_that_fix(wish.place);
+    bool has_first = false;
+    wish.place = centered(i, wish, symmetries);
+    const auto fixing = symmetries_that_fix(wish.place, symmetries);
     Vec3 away(0);
     for (const Isometry& symmetry : fixing) {
       away += turned(symmetry, away_from(i, wish));
@@ -432,28 +485,35 @@ class Finder {
     away = glm::normalize(away);
     const double height = solids_.layer(i).bottom;
     const double tip = tip_at(i, wish.place);
-    for (std::size_t k = 0; k < symmetries_.size(); ++k) {
-      const Isometry& symmetry = symmetries_[k];
+    for (std::size_t k = 0; k < symmetries.size(); ++k) {
+      const Isometry& symmetry = symmetries[k];
       const Vec2 place = k == 0 ? wish.place : moved(symmetry, wish.place);
-      const bool is_there = std::any_of(
-          contacts_.begin() + static_cast<std::ptrdiff_t>(original),
-          contacts_.end(), [&](const Contact& other) {
-            return glm::distance(Vec2(other.place), place) < sizes_.tip / 4;
-          });
-      if (is_there) continue;
+      if (has_contact(Vec3(place, height))) continue;
       const std::uint32_t around = k == 0 ? region : region_at(i, place);
       if (around >= near_.size()) continue;
       near_[around].push_back(static_cast<std::uint32_t>(contacts_.size()));
+      // Where the first one is there already, each has a way of its own.
+      has_first = has_first || k == 0;
+      const bool is_image = has_first && k > 0;
       contacts_.push_back({Vec3(place, height),
                            k == 0 ? away : turned(symmetry, away), tip,
-                           is_needed, original, k, sides_of(fixing, symmetry)});
+                           is_needed, is_image ? original : contacts_.size(),
+                           is_image ? k : 0, sides_of(fixing, symmetry)});
     }
   }
 
-  std::vector<Isometry> symmetries_that_fix(Vec2 place) const {
+  // Whether there is one at this place, or next to it.
+  bool has_contact(Vec3 place) const {
+    return std::ranges::any_of(contacts_, [&](const Contact& contact) {
+      return glm::distance(contact.place, place) < sizes_.tip / 4;
+    });
+  }
+
+  static std::vector<Isometry> symmetries_that_fix(
+      Vec2 place, std::span<const Isometry> symmetries) {
     std::vector<Isometry> fixing;
     std::ranges::copy_if(
-        symmetries_, std::back_inserter(fixing), [&](const Isometry& symmetry) {
+        symmetries, std::back_inserter(fixing), [&](const Isometry& symmetry) {
           return glm::distance(moved(symmetry, place), place) < kFixed;
         });
     return fixing;
@@ -477,11 +537,13 @@ class Finder {
 
   // A place near a mirror or an axis goes onto it, so that one contact stands
   // there and not one on each side, if that holds as much.
-  Vec2 centered(std::size_t i, const Wish& wish) const {
-    const double nearest = reach_of_tip(sizes_.tip);
+  Vec2 centered(std::size_t i, const Wish& wish,
+                std::span<const Isometry> symmetries) const {
+    const double nearest =
+        wish.is_contact ? sizes_.tip / 2 : reach_of_tip(sizes_.tip);
     Vec2 sum(0);
     double count = 0;
-    for (const Isometry& symmetry : symmetries_) {
+    for (const Isometry& symmetry : symmetries) {
       const Vec2 image = moved(symmetry, wish.place);
       if (glm::distance(image, wish.place) > nearest) continue;
       sum += image;
@@ -491,7 +553,7 @@ class Finder {
     const double least_depth =
         std::min(sizes_.tip / 2, solids_.depth(i, wish.place));
     const bool is_fixed =
-        std::ranges::all_of(symmetries_, [&](const Isometry& symmetry) {
+        std::ranges::all_of(symmetries, [&](const Isometry& symmetry) {
           const double away = glm::distance(moved(symmetry, middle), middle);
           return away < kFixed || away > nearest;
         });
@@ -536,7 +598,10 @@ class Finder {
   // surface that rises as the layer reaches out, at most by 45°.
   Vec3 away_from(std::size_t i, const Wish& wish) const {
     const Vec3 down(0, 0, -1);
-    if (i == 0 || wish.out > kWideLedge || wish.out <= 0) return down;
+    if (i == 0 || wish.out > kWideLedge || wish.out <= 0 ||
+        solids_.layer(i - 1).contours.is_empty()) {
+      return down;
+    }
     const double rise =
         solids_.layer(i).section_z - solids_.layer(i - 1).section_z;
     const Vec2 aside = wish.place - solids_.nearest(i - 1, wish.place);

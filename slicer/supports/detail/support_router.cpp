@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -73,7 +74,7 @@ bool SupportRouter::is_free(const Support& support) const {
     const bool is_last = i + 2 == path.size();
     Rod rod = {path[i], path[i + 1], sizes_.pillar, sizes_.pillar};
     if (is_last && support.end == SupportEnd::kPart) {
-      rod.bottom.z += sizes_.penetration;
+      rod.bottom.z += support.depth;
       rod.bottom_diameter = support.tip;
     } else if (is_last && support.end == SupportEnd::kFoot) {
       rod.bottom.z = bed_;
@@ -89,6 +90,10 @@ std::optional<Support> SupportRouter::route(const Contact& contact) const {
   }
   std::array<Vec2, kSides> all;
   for (int k = 0; k < kSides; ++k) all[static_cast<std::size_t>(k)] = side(k);
+  // Those first to which the part's surface faces.
+  std::ranges::stable_sort(all, std::greater<>(), [&](Vec2 side) {
+    return std::round(1e6 * glm::dot(side, flat(contact.away)));
+  });
   if (auto support = route(contact, all, false)) return support;
   return route(contact, all, true);
 }
@@ -124,12 +129,32 @@ std::optional<Support> SupportRouter::with_head(const Contact& contact,
   if (!is_free({contact.place, end, contact.tip, sizes_.pillar})) {
     return std::nullopt;
   }
-  support.path = {contact.place - away * sizes_.penetration, end};
+  support.depth = depth_of(contact, away);
+  support.path = {contact.place - away * support.depth, end};
   if (add_way_to_bed(support, sides) ||
       (may_land && add_way_to_part(support))) {
     return support;
   }
   return std::nullopt;
+}
+
+// How deep a tip goes: half of its diameter, and no deeper than half of the
+// part above it.
+double SupportRouter::depth_of(const Contact& contact, Vec3 away) const {
+  const double rise = -away.z;
+  const double wanted = contact.tip / 2;
+  for (std::size_t i = solids_.layer_above(contact.place.z);; ++i) {
+    const bool is_above = i == solids_.count();
+    const double top =
+        is_above ? solids_.layer(i - 1).top : solids_.layer(i).bottom;
+    const double length = (top - contact.place.z) / rise;
+    if (length >= 2 * wanted) return wanted;
+    if (is_above ||
+        (length > 0 &&
+         solids_.depth(i, flat(contact.place - away * length)) <= 0)) {
+      return length / 2;
+    }
+  }
 }
 
 bool SupportRouter::add_way_to_bed(Support& support,
@@ -174,7 +199,7 @@ bool SupportRouter::add_way_to_part(Support& support) const {
     }
     support.end = SupportEnd::kPart;
     support.path.push_back(neck);
-    support.path.push_back(tip - Vec3(0, 0, sizes_.penetration));
+    support.path.push_back(tip - Vec3(0, 0, support.depth));
     return true;
   }
   return false;

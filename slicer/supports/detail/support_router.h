@@ -43,6 +43,7 @@ class SupportRouter {
   std::optional<Support> with_head(const Contact& contact, Vec3 away,
                                    double length, std::span<const Vec2> sides,
                                    bool may_land) const;
+  double depth_of(const Contact& contact, Vec3 away) const;
   bool add_way_to_bed(Support& support, std::span<const Vec2> sides) const;
   bool add_way_to_part(Support& support) const;
 

@@ -44,6 +44,32 @@ TEST(Check, NamesTheLineOfAnIsland) {
       << result.output;
 }
 
+TEST(Check, NamesAWeakBond) {
+  const TemporaryFolder folder;
+  const auto overhang = [&](const std::string& text) {
+    folder.write("a.scad", text);
+    const auto result = run(folder, {"check", "a.scad", "--json"});
+    for (const json& finding : json::parse(result.output)["findings"]) {
+      if (finding["kind"] == "overhang") return finding;
+    }
+    return json();
+  };
+  // 121 mm² on 1 mm², 121 mm² on 49 mm², and a beam that is held at both ends.
+  const json weak =
+      overhang("cube([1, 1, 6]); translate([-5, -5, 5]) cube([11, 11, 1]);");
+  EXPECT_TRUE(weak["is_weak"]);
+  EXPECT_NEAR(weak["bond"].get<double>(), 1 / 121.0, 1e-6);
+  EXPECT_TRUE(has(run(folder, {"check", "a.scad"}).output,
+                  "1 % of its layer holds it"));
+  const json held =
+      overhang("cube([7, 7, 6]); translate([0, 0, 5]) cube([11, 11, 1]);");
+  EXPECT_FALSE(held["is_weak"]);
+  EXPECT_NEAR(held["bond"].get<double>(), 49 / 121.0, 1e-6);
+  EXPECT_FALSE(overhang("cube([7, 4, 6]); translate([14, 0, 0]) "
+                        "cube([7, 4, 6]); translate([0, 0, 5]) "
+                        "cube([21, 4, 1]);")["is_weak"]);
+}
+
 TEST(Check, FailsOnWhatItIsTold) {
   const TemporaryFolder folder;
   folder.write("a.scad", kFloating);

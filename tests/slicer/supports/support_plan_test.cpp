@@ -253,6 +253,62 @@ TEST(Supports, AreTiedToTheirNeighboursWhereTheyAreTall) {
           .braces.empty());
 }
 
+TEST(Supports, BeginAboveALayerThatIsEmpty) {
+  expect_lawful(Supported("cube(3); translate([0, 0, 6]) cube([10, 10, 1]);"));
+}
+
+// Each part is held by itself, and nothing twice.
+TEST(Supports, HoldPartsWithinEachOther) {
+  const SupportPlan plan = plan_of(
+      "for (r = [10, 20]) difference() { cylinder(r = r, h = 3, $fn = 40); "
+      "translate([0, 0, -1]) cylinder(r = r - 2, h = 5, $fn = 40); }",
+      {.tip = 0.4});
+  EXPECT_TRUE(plan.unheld.empty());
+  EXPECT_TRUE(plan.unwanted.empty());
+  EXPECT_LE(plan.supports.size(), 64U);
+  for (const Support& support : plan.supports) {
+    for (const Support& other : plan.supports) {
+      if (&support == &other) continue;
+      EXPECT_GT(glm::distance(support.contact, other.contact), 0.4);
+    }
+  }
+}
+
+TEST(Supports, GoNoDeeperThanHalfOfThePart) {
+  for (const char* const part :
+       {"cube([6, 6, 0.2]);", "cube([6, 6, 0.1]);",
+        "translate([0, 0, 8]) rotate([0, 30, 0]) cube([8, 8, 0.2]);"}) {
+    SCOPED_TRACE(part);
+    const Supported made(part);
+    for (const Support& support : made.plan.supports) {
+      EXPECT_LE(support.depth, 0.12);
+    }
+    expect_lawful(made);
+  }
+}
+
+// A ring that stands up: below its outer side heads lean outwards.
+TEST(Supports, LeanToWhereTheSurfaceFaces) {
+  const SupportPlan plan = plan_of(
+      "rotate([90, 0, 0]) rotate_extrude($fn = 72) translate([5, 0]) "
+      "circle(1, $fn = 24);");
+  for (const Support& support : plan.supports) {
+    if (support.contact.z > -3 || std::abs(support.contact.x) < 1) continue;
+    const double outwards =
+        std::abs(support.path[1].x) - std::abs(support.contact.x);
+    EXPECT_GT(outwards, 0) << support.contact.x;
+  }
+}
+
+TEST(Supports, HoldABarAtBothEnds) {
+  const SupportPlan plan =
+      plan_of("rotate(20) cube([3.6, 0.8, 2], center = true);");
+  ASSERT_EQ(plan.supports.size(), 2U);
+  for (const Support& support : plan.supports) {
+    EXPECT_NEAR(glm::length(Vec2(support.contact)), 0.9, 0.05);
+  }
+}
+
 // What two pillars take is more than a branch and a trunk.
 TEST(Supports, MergeToTreesWhereThatSavesResin) {
   const std::string bars =
