@@ -82,17 +82,21 @@ class PixelStack:
             self._open_archive()
         self.count = len(self.heights)
 
-    def images(self):
-        """Yields width, height and pixels, rows from the top, 0 … 255."""
-        return self._images()
+    def images(self, numbers=None):
+        """Yields width, height and pixels, rows from the top, 0 … 255.
+
+        numbers  of the layers, ascending from 0; all unless given
+        """
+        return self._images(range(self.count) if numbers is None else numbers)
 
     def _open_folder(self):
         index = json.loads((self.path / "index.json").read_text())
         self.pixel = self.pixel or index["pixel_mm"][0]
         self.heights = [(layer["z"] - layer["thickness"], layer["z"])
                         for layer in index["layers"]]
-        self._images = lambda: (png_pixels((self.path / layer["file"]).read_bytes())
-                                for layer in index["layers"])
+        files = [self.path / layer["file"] for layer in index["layers"]]
+        self._images = lambda numbers: (png_pixels(files[i].read_bytes())
+                                        for i in numbers)
 
     def _open_archive(self):
         archive = zipfile.ZipFile(self.path)
@@ -112,8 +116,8 @@ class PixelStack:
                         for match in map(number.fullmatch, names) if match)
         self.heights = [(i * thickness, (i + 1) * thickness)
                         for i in range(len(images))]
-        self._images = lambda: (png_pixels(archive.read(name))
-                                for _, name in images)
+        self._images = lambda numbers: (png_pixels(archive.read(images[i][1]))
+                                        for i in numbers)
 
     def _open_goo(self):
         report = json.loads(subprocess.run(
@@ -125,7 +129,8 @@ class PixelStack:
         thickness = header["layer_thickness_mm"]
         self.heights = [(i * thickness, (i + 1) * thickness)
                         for i in range(len(report["layers"]))]
-        self._images = lambda: self._goo_images(size, report["layers"])
+        self._images = lambda numbers: self._goo_images(
+            size, [report["layers"][i] for i in numbers])
 
     def _goo_images(self, size, layers):
         data = self.path.read_bytes()
