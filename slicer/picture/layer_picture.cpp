@@ -64,7 +64,7 @@ class LayerPicture {
     draw_words(title);
     draw_tile(image_, field_);
     draw_grid();
-    draw_layer(image_, layer_.contours, field_, map_, kOutlineWidth);
+    draw_layer(image_, layer_, field_, map_, kOutlineWidth);
     const double end =
         draw_scale(image_, {kMargin, image_.height - 20.0}, 0.25 * field_.width,
                    pixels_per_mm(), kTextSize);

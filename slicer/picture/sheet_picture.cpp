@@ -137,8 +137,8 @@ Image draw_sheet(const std::vector<Layer>& layers, const std::string& title,
   for (unsigned i = 0; i < chosen.size(); ++i) {
     const Rectangle tile = grid.tile(i);
     draw_tile(image, tile);
-    draw_layer(image, layers[chosen[i]].contours, tile,
-               fit(bounds, tile, kPadding), kOutlineWidth);
+    draw_layer(image, layers[chosen[i]], tile, fit(bounds, tile, kPadding),
+               kOutlineWidth);
     labels.draw(image, chosen[i], tile);
   }
   return image;

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "slicer/picture/detail/layer_distance.h"
 #include "slicer/picture/detail/stack_points.h"
+#include "slicer/picture/detail/support_places.h"
 
 namespace lamina::slicer {
 namespace {
@@ -22,6 +23,9 @@ constexpr unsigned kOversampling = 2;  // in x and in y
 constexpr double kSlopeLength = 0.0018;
 // Tops that are level for this many such lengths are level.
 constexpr double kSlopeReach = 20;
+
+// Share of the light that supports mirror: they are cured resin.
+constexpr double kSupportShine = 0.25;
 
 // How far walls shade each other: shares of the part's size and of the
 // picture's.
@@ -125,10 +129,11 @@ double to_srgb(double linear) {
 // bent by the surface, are what looks like metal.
 class Studio {
  public:
-  explicit Studio(const ColorScheme& colors)
-      : solid_(to_linear(colors.solid[0]), to_linear(colors.solid[1]),
-               to_linear(colors.solid[2])),
-        shine_(colors.shine) {}
+  // solid  the colour of what is lit
+  // shine  the share of the light that it mirrors, 0 … 1
+  Studio(const Rgb& solid, double shine)
+      : solid_(to_linear(solid[0]), to_linear(solid[1]), to_linear(solid[2])),
+        shine_(shine) {}
 
   // Returns the colour that the viewer sees, in linear light.
   //
@@ -205,10 +210,12 @@ class LitStack {
         thickness_((box.high.z - box.low.z) /
                    static_cast<double>(layers.size())),
         view_from_world_(camera.view_from_world()),
-        studio_(*options.colors),
+        part_studio_(options.colors->solid, options.colors->shine),
+        support_studio_(options.colors->supports, kSupportShine),
         points_(find_stack_points(layers, plates, camera, origin_, width_,
                                   height_)),
-        normals_(layers, plates, size_) {
+        normals_(layers, plates, size_),
+        supports_(layers) {
     const double pixels_per_mm =
         height_ / (2 * camera.distance *
                    std::tan(camera.field_deg * std::numbers::pi / 360));
@@ -229,11 +236,14 @@ class LitStack {
       const ldni::TaggedPoint& point = at(px, py);
       Rgb color = background;
       if (point.tag >= 0) {
-        const Vec3 normal =
-            normals_.at(static_cast<int>(point.tag), place_of(point) + origin_);
+        const Vec3 place = place_of(point) + origin_;
+        const Vec3 normal = normals_.at(static_cast<int>(point.tag), place);
         if (open < 0) open = openness(px, py, normal);
+        const bool is_support =
+            supports_.hold(static_cast<std::size_t>(point.tag), Vec2(place));
         const Vec3 light =
-            studio_.light(Vec3(view_from_world_ * Vec4(normal, 0)), open);
+            (is_support ? support_studio_ : part_studio_)
+                .light(Vec3(view_from_world_ * Vec4(normal, 0)), open);
         for (int c = 0; c < 3; ++c) {
           color[static_cast<std::size_t>(c)] =
               static_cast<float>(to_srgb(light[c]));
@@ -305,9 +315,11 @@ class LitStack {
   double size_;
   double thickness_;
   Mat4 view_from_world_;
-  Studio studio_;
+  Studio part_studio_;
+  Studio support_studio_;
   std::vector<ldni::TaggedPoint> points_;
   Normals normals_;
+  SupportPlaces supports_;
   double reach_ = 0;   // of shade [pixels]
   double fading_ = 1;  // the same [mm]
   std::vector<std::array<int, 2>> places_;
@@ -325,16 +337,21 @@ constexpr Rgb rgb(unsigned hex) {
           static_cast<float>(hex & 255) / 255};
 }
 
+// A grey blue, which is neither a metal nor most other parts.
+constexpr unsigned kSupports = 0x7f9bb8;
+
 // A material before a soft light grey.
 constexpr ColorScheme material(std::string_view name, unsigned solid,
                                double shine) {
-  return {name, rgb(0xf4f4f2), rgb(0xdbdde0), rgb(solid), shine};
+  return {name,       rgb(0xf4f4f2), rgb(0xdbdde0),
+          rgb(solid), shine,         rgb(kSupports)};
 }
 
 // Background and front faces of openscad's scheme of that name.
 constexpr ColorScheme openscad(std::string_view name, unsigned background,
-                               unsigned solid) {
-  return {name, rgb(background), rgb(background), rgb(solid), 0.25};
+                               unsigned solid, unsigned supports = kSupports) {
+  return {name, rgb(background), rgb(background), rgb(solid),
+          0.25, rgb(supports)};
 }
 
 constexpr std::array kSchemes = {
@@ -352,8 +369,8 @@ constexpr std::array kSchemes = {
     openscad("Nature", 0xfafafa, 0x16a085),
     openscad("DeepOcean", 0x333333, 0xeeeeee),
     openscad("Solarized", 0xfdf6e3, 0xb58800),
-    openscad("Tomorrow", 0xf8f8f8, 0x4271ae),
-    openscad("Tomorrow Night", 0x1d1f21, 0x81a2be),
+    openscad("Tomorrow", 0xf8f8f8, 0x4271ae, 0xb9c6d3),
+    openscad("Tomorrow Night", 0x1d1f21, 0x81a2be, 0x566474),
     openscad("Monotone", 0xffffe5, 0xf9d72c),
 };
 

@@ -30,6 +30,7 @@ struct ColorScheme {
   Rgb background_bottom;
   Rgb solid;
   double shine;  // share of the light that is mirrored, 0 … 1
+  Rgb supports;  // where layers know them
 };
 
 // Null where no scheme has that name.

@@ -14,6 +14,8 @@ namespace {
 
 constexpr Rgb kSolid = {0.85F, 0.66F, 0.25F};
 constexpr Rgb kOutline = {0.36F, 0.25F, 0.06F};
+constexpr Rgb kSupport = {0.56F, 0.65F, 0.75F};
+constexpr Rgb kSupportOutline = {0.20F, 0.29F, 0.39F};
 
 // A glyph is a list of polylines, divided by '/'; a point is two characters:
 // x from '0' to '8', y from 'a' (4 below the base line) over 'e' (on it) and
@@ -124,6 +126,25 @@ std::string_view take_letter(std::string_view& text) {
   return letter;
 }
 
+struct LayerColors {
+  Rgb solid;
+  Rgb outline;
+};
+
+void draw_contours(Image& image, const plane::Contours& contours,
+                   const Rectangle& area, const PixelMap& map,
+                   double outline_width, const LayerColors& colors) {
+  Coverage solid(area.width, area.height);
+  add_contours(solid, contours, map);
+  blend(image, solid, area.x, area.y, colors.solid);
+
+  Coverage outline(area.width, area.height);
+  visit_edges(contours, [&](Vec2 from, Vec2 to) {
+    outline.add_stroke(map(from), map(to), outline_width);
+  });
+  blend(image, outline, area.x, area.y, colors.outline);
+}
+
 }  // namespace
 
 Box2 bounds_of(const std::vector<Layer>& layers) {
@@ -208,18 +229,16 @@ double draw_scale(Image& image, Vec2 at, double longest, double pixels_per_mm,
   return to.x + 14 + text_width(words, size);
 }
 
-void draw_layer(Image& image, const plane::Contours& contours,
-                const Rectangle& area, const PixelMap& map,
-                double outline_width) {
-  Coverage solid(area.width, area.height);
-  add_contours(solid, contours, map);
-  blend(image, solid, area.x, area.y, kSolid);
-
-  Coverage outline(area.width, area.height);
-  visit_edges(contours, [&](Vec2 from, Vec2 to) {
-    outline.add_stroke(map(from), map(to), outline_width);
-  });
-  blend(image, outline, area.x, area.y, kOutline);
+void draw_layer(Image& image, const Layer& layer, const Rectangle& area,
+                const PixelMap& map, double outline_width) {
+  const bool has_supports = !layer.supports.is_empty();
+  // The part hides the tips that are in it.
+  if (has_supports) {
+    draw_contours(image, layer.supports, area, map, outline_width,
+                  {kSupport, kSupportOutline});
+  }
+  draw_contours(image, has_supports ? layer.part : layer.contours, area, map,
+                outline_width, {kSolid, kOutline});
 }
 
 void add_text(Coverage& coverage, std::string_view text, Vec2 at, double size) {

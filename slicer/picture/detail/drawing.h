@@ -74,12 +74,12 @@ double round_length(double longest);
 double draw_scale(Image& image, Vec2 at, double longest, double pixels_per_mm,
                   double size);
 
-// Draws the layer, filled and with an outline.
+// Draws the layer, filled and with an outline, its supports in a colour of
+// their own.
 //
 // map            from the area's corner
 // outline_width  [pixels]
-void draw_layer(Image& image, const plane::Contours& contours,
-                const Rectangle& area, const PixelMap& map,
-                double outline_width);
+void draw_layer(Image& image, const Layer& layer, const Rectangle& area,
+                const PixelMap& map, double outline_width);
 
 }  // namespace lamina::slicer
