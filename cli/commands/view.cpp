@@ -262,6 +262,7 @@ void write_page(const compiler::Compilation& compilation,
   page.source_lines = texts_from(folder, inspection.lines.features);
   page.print = found.print;
   page.finding_source_lines = texts_from(folder, inspection.lines.findings);
+  if (found.supports) page.supports = size_text(*found.supports);
   compiler::write_file(compilation.request.output.path,
                        viewer_page(inspection.layers, page),
                        compilation.temporary_files);

@@ -1,9 +1,12 @@
 #include "slicer/picture/viewer_page.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -97,6 +100,31 @@ std::string base64(std::string_view bytes) {
   }
   return text;
 }
+
+// Finds loops by their points.
+class LoopIndex {
+ public:
+  explicit LoopIndex(const plane::Contours& contours) : contours_(contours) {
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      const Vec2 first = contours.loop(i).front();
+      by_first_point_[{first.x, first.y}] = i;
+    }
+  }
+
+  // The loop with these points; no value where there is none.
+  std::optional<std::size_t> find(std::span<const Vec2> loop) const {
+    const auto found = by_first_point_.find({loop.front().x, loop.front().y});
+    if (found == by_first_point_.end() ||
+        !std::ranges::equal(contours_.loop(found->second), loop)) {
+      return std::nullopt;
+    }
+    return found->second;
+  }
+
+ private:
+  const plane::Contours& contours_;
+  std::map<std::pair<double, double>, std::size_t> by_first_point_;
+};
 
 // Leaves out digits that the page does not show.
 double rounded(double value, double step) {
@@ -198,6 +226,9 @@ class PageMaker {
       : layers_(layers),
         options_(options),
         bounds_(bounds_of(layers)),
+        has_supports_(std::ranges::any_of(
+            layers,
+            [](const Layer& layer) { return !layer.supports.is_empty(); })),
         step_(step_for(bounds_.size())),
         corners_(bounds_.low, step_),
         marks_(bounds_.low, step_) {}
@@ -207,7 +238,11 @@ class PageMaker {
     const std::string title = on_one_line(options_.title);
     facts["title"] = title;
     facts["estimate"] = options_.estimate;
-    for (const Layer& layer : layers_) add_contours(layer);
+    if (has_supports_) facts["supports"] = describe_supports();
+    for (const Layer& layer : layers_) {
+      add_loops(layer.contours);
+      if (has_supports_) add_part_and_supports(layer);
+    }
     if (options_.print || options_.min_feature > 0) {
       facts["found"] = find_places();
     }
@@ -254,12 +289,57 @@ class PageMaker {
             {"minFeature", options_.min_feature}};
   }
 
-  void add_contours(const Layer& layer) {
-    const plane::Contours& contours = layer.contours;
+  // What the page shows of the part without its supports.
+  Json describe_supports() const {
+    Json rows = Json::array();
+    double volume = 0;
+    for (const Layer& layer : layers_) {
+      const LayerMeasures measures = measure(layer.part);
+      volume += measures.area * (layer.top - layer.bottom);
+      rows.push_back({measures.loops, measures.holes, measures.vertices,
+                      rounded(measures.area, 1e-6),
+                      rounded(total_perimeter(layer.part), 1e-6)});
+    }
+    return {{"text", options_.supports},
+            {"partLayers", std::move(rows)},
+            {"partVolume", volume}};
+  }
+
+  void add_loops(const plane::Contours& contours) {
     numbers_.add_count(contours.loop_count());
     for (std::size_t i = 0; i < contours.loop_count(); ++i) {
       numbers_.add_count(contours.loop(i).size());
       for (const Vec2& point : contours.loop(i)) corners_.add(numbers_, point);
+    }
+  }
+
+  // Says of each loop of the whole whether it is the part's (0), the supports'
+  // (1) or of both together (2), and adds what loops of the part, and then of
+  // the supports, are left.
+  void add_part_and_supports(const Layer& layer) {
+    const std::array<const plane::Contours*, 2> own = {&layer.part,
+                                                       &layer.supports};
+    const std::array<LoopIndex, 2> loops = {LoopIndex(layer.part),
+                                            LoopIndex(layer.supports)};
+    std::array<std::vector<bool>, 2> is_known = {
+        std::vector<bool>(layer.part.loop_count()),
+        std::vector<bool>(layer.supports.loop_count())};
+    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+      std::size_t owner = 0;
+      for (; owner < own.size(); ++owner) {
+        const auto found = loops[owner].find(layer.contours.loop(i));
+        if (!found) continue;
+        is_known[owner][*found] = true;
+        break;
+      }
+      numbers_.add_count(owner);
+    }
+    for (std::size_t owner = 0; owner < own.size(); ++owner) {
+      plane::Contours rest;
+      for (std::size_t i = 0; i < own[owner]->loop_count(); ++i) {
+        if (!is_known[owner][i]) rest.add_loop(own[owner]->loop(i));
+      }
+      add_loops(rest);
     }
   }
 
@@ -321,6 +401,7 @@ class PageMaker {
   const std::vector<Layer>& layers_;
   const ViewerOptions& options_;
   const Box2 bounds_;
+  const bool has_supports_;
   const double step_;
   PointEncoder corners_;
   PointEncoder marks_;

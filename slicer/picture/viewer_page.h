@@ -7,6 +7,11 @@
 // as a stream of integers: steps from one corner to the next in units of 1e-4
 // mm, in zigzag form and 7 bits a byte; deflated and in base64. That is some 3
 // bytes a corner, and every browser since 2023 inflates it by itself.
+//
+// Of a print with supports the page gets the part and the supports by
+// themselves, too. Nearly all loops of a layer are loops of one of both: a
+// number for each says of which, and only where part and supports touch their
+// own loops follow.
 
 #include <optional>
 #include <string>
@@ -30,6 +35,7 @@ struct ViewerOptions {
   // nobody looked; no text where that is not known.
   std::optional<PrintCheck> print;
   std::vector<std::string> finding_source_lines;
+  std::string supports;  // how much they are, in words; may be empty
 };
 
 // layers  ascending; at least one of them with a contour

@@ -46,7 +46,8 @@ class Viewer {
     this.plot = new Plot(byId("plot"), part);
     this.solid = new Solid(byId("solid"), part);
     this.state = {
-      index: 0, below: false, marks: part.found !== null, pointer: null, ends: [],
+      index: 0, below: false, marks: part.found !== null, supports: part.supports !== null,
+      pointer: null, ends: [],
     };
     this.describePart();
     this.listPlaces();
@@ -78,21 +79,34 @@ class Viewer {
   }
 
   fullestLayer() {
-    const areas = this.part.layers.map((layer) => layer.area);
+    const areas = this.part.partLayers.map((layer) => layer.area);
     return areas.indexOf(Math.max(...areas));
   }
 
+  // The layers as they are shown.
+  get layers() {
+    return shownLayers(this.part, this.state);
+  }
+
   describePart() {
-    const {title, estimate, layers, size, volume} = this.part;
-    const [x, y, z] = size.map((length) => fixed(length, 2));
+    const {title, layers, supports} = this.part;
     byId("title").textContent = title;
-    byId("summary").textContent = [
-      counted(layers.length, "layer"), `${x} × ${y} × ${z} mm`,
-      `${fixed(volume, 2)} mm³`, ...estimate ? [estimate] : [],
-    ].join(" · ");
+    byId("supports").hidden = !supports;
+    for (const element of document.querySelectorAll(".of-supports")) element.hidden = !supports;
     byId("theme").innerHTML = kIcons.theme;
     byId("play").innerHTML = kIcons.play;
     byId("slider").max = layers.length;
+    this.summarize();
+  }
+
+  summarize() {
+    const {estimate, layers, size, volume, supports} = this.part;
+    const [x, y, z] = size.map((length) => fixed(length, 2));
+    const shown = supports && !this.state.supports ? supports.partVolume : volume;
+    byId("summary").textContent = [
+      counted(layers.length, "layer"), `${x} × ${y} × ${z} mm`, `${fixed(shown, 2)} mm³`,
+      ...[supports && supports.text, estimate].filter((text) => text),
+    ].join(" · ");
   }
 
   // Lists what was found by kind, and what one line of the design made as one.
@@ -167,9 +181,14 @@ class Viewer {
   }
 
   choose(index) {
-    const {layers} = this.part;
     this.isWhole = false;
-    this.state.index = Math.min(layers.length - 1, Math.max(0, Math.round(index)));
+    this.state.index = Math.min(this.layers.length - 1, Math.max(0, Math.round(index)));
+    this.describeLayer();
+    this.draw();
+  }
+
+  describeLayer() {
+    const {layers} = this;
     const layer = layers[this.state.index];
     const number = this.state.index + 1;
     byId("number").textContent = `${number} of ${layers.length}`;
@@ -183,7 +202,6 @@ class Viewer {
     byId("slider").value = number;
     byId("slider").setAttribute("aria-valuetext", words);
     byId("drawing").setAttribute("aria-label", words);
-    this.draw();
   }
 
   // Draws once a frame, however much has changed.
@@ -193,9 +211,9 @@ class Viewer {
       this.frame = 0;
       if (!byId("drawing-pane").hidden) this.drawing.draw(this.state);
       if (!byId("solid-pane").hidden) {
-        this.solid.draw(this.state.index, this.isWhole, this.state.marks);
+        this.solid.draw(this.state, this.isWhole);
       }
-      this.plot.draw(this.state.index);
+      this.plot.draw(this.state);
     });
   }
 
@@ -221,7 +239,7 @@ class Viewer {
     slider.oninput = () => this.choose(slider.value - 1);
     slider.onpointermove = (event) => {
       const share = event.offsetX / slider.clientWidth;
-      const {layers} = this.part;
+      const {layers} = this;
       const index = Math.round(Math.min(1, Math.max(0, share)) * (layers.length - 1));
       byId("hint").hidden = false;
       byId("hint").style.left = `${Math.min(slider.clientWidth - 70,
@@ -245,6 +263,13 @@ class Viewer {
     this.state[name] = !this.state[name];
     byId(name).setAttribute("aria-pressed", this.state[name]);
     this.draw();
+  }
+
+  // Without supports all is shown and measured as if there were none.
+  toggleSupports() {
+    this.toggle("supports");
+    this.summarize();
+    this.describeLayer();
   }
 
   // On a phone the list is a drawer over the part, which has its marks anyhow.
@@ -307,6 +332,7 @@ class Viewer {
     byId("fit").onclick = () => this.fit();
     byId("measure").onclick = () => this.toggleMeasure();
     byId("below").onclick = () => this.toggle("below");
+    byId("supports").onclick = () => this.toggleSupports();
     byId("marks").onclick = () => this.toggleMarks();
     byId("section").onclick = () => this.togglePane("section");
     byId("orbit").onclick = () => this.togglePane("orbit");
@@ -340,6 +366,7 @@ class Viewer {
       f: () => this.fit(), 0: () => this.fit(),
       m: () => byId("drawing-pane").hidden || this.toggleMeasure(),
       b: () => this.toggle("below"),
+      u: () => this.part.supports && this.toggleSupports(),
       t: () => this.part.found && this.toggleMarks(),
       l: () => this.togglePane("section"), s: () => this.togglePane("orbit"),
       d: () => this.toggleTheme(), "?": () => this.toggleKeys(), " ": () => this.play(),
@@ -453,7 +480,7 @@ class Viewer {
     if (state.ends.length === 2) state.ends = [];
     state.ends.push({
       index: state.index,
-      place: snap(this.part.layers[state.index], this.view.toPart(at),
+      place: snap(this.layers[state.index], this.view.toPart(at),
           kSnapReach / this.view.scale),
     });
     this.tellDistance();

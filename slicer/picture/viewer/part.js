@@ -48,11 +48,29 @@ class Places {
   }
 }
 
+// A list of loops, which are flat arrays x, y, x, y, ….
+function readLoops(numbers, places) {
+  return Array.from({length: numbers.count()}, () => {
+    const loop = new Float64Array(2 * numbers.count());
+    for (let i = 0; i < loop.length; i += 2) loop.set(places.next(), i);
+    return loop;
+  });
+}
+
+// The loops of the part and of the supports by themselves: loops of the whole,
+// each with its owner, and what is left of both.
+function readOwnLoops(numbers, places, contours) {
+  const owners = contours.map(() => numbers.count());
+  return [0, 1].map((owner) => [
+    ...contours.filter((_, i) => owners[i] === owner), ...readLoops(numbers, places)]);
+}
+
 // {title, estimate, low, size, volume, minFeature, layers: [{z, bottom, top,
-// loops, holes, vertices, area, perimeter, contours, marks}], found};
-// contours are lists of flat arrays x, y, x, y, …; found has what was looked for,
-// else it is null: {places: [{kind, first, last, layer, place, reach, text,
-// origin}], notes, hasPrint}.
+// loops, holes, vertices, area, perimeter, contours, marks}], found, supports};
+// contours are lists of loops; found has what was looked for, else it is null:
+// {places: [{kind, first, last, layer, place, reach, text, origin}], notes,
+// hasPrint}. supports is null where there are none: {text, partVolume, layers:
+// [{bottom, top, contours}]}. partLayers are the layers without supports.
 async function readPart() {
   const text = (id) => document.getElementById(id).textContent;
   const facts = JSON.parse(text("facts"));
@@ -63,11 +81,10 @@ async function readPart() {
 
   let places = new Places(numbers, facts.step);
   for (const layer of layers) {
-    layer.contours = Array.from({length: numbers.count()}, () => {
-      const loop = new Float64Array(2 * numbers.count());
-      for (let i = 0; i < loop.length; i += 2) loop.set(places.next(), i);
-      return loop;
-    });
+    layer.contours = readLoops(numbers, places);
+    if (facts.supports) {
+      [layer.part, layer.supports] = readOwnLoops(numbers, places, layer.contours);
+    }
   }
   if (facts.minFeature) {
     places = new Places(numbers, facts.step);
@@ -79,6 +96,15 @@ async function readPart() {
       }));
     }
   }
+  const partLayers = !facts.supports ? layers : layers.map((layer, i) => {
+    const [loops, holes, vertices, area, perimeter] = facts.supports.partLayers[i];
+    return {...layer, loops, holes, vertices, area, perimeter, contours: layer.part};
+  });
+  const supports = facts.supports ? {
+    text: facts.supports.text,
+    partVolume: facts.supports.partVolume,
+    layers: layers.map(({bottom, top, supports}) => ({bottom, top, contours: supports})),
+  } : null;
   const [x, y] = facts.low;
   const found = facts.found && {
     ...facts.found,
@@ -96,6 +122,8 @@ async function readPart() {
     volume: facts.volume,
     minFeature: facts.minFeature,
     layers,
+    partLayers,
+    supports,
     found,
   };
 }

@@ -6,6 +6,9 @@
 // the layers some way below and above, for the slope; and of a layer's bottom
 // and top only what the next layer leaves free is made at all, by one sweep over
 // the edges of both. A large part is drawn from few layers at first.
+//
+// Supports are a body of their own, whose tips the part hides: to show or hide
+// them makes nothing anew.
 
 const kFirst = {finest: 1 / 1000, corners: 12000};  // the finest bends, of the
 const kFull = {finest: 1 / 4000, corners: 150000};  // part's size; and of all layers
@@ -326,20 +329,19 @@ class Quads {
 // All plates, ordered by layer: what is seen of its bottom and of the top of the
 // layer below, then its sides.
 class PlateMesh {
-  constructor(part, {finest, corners}) {
-    const {layers} = part;
-    const length = Math.hypot(...part.size);
+  constructor({layers, size}, {finest, corners}) {
+    const length = Math.hypot(...size);
     this.finest = finest * length;
     this.narrowest = kNarrowest * length;
-    this.piece = Math.max(...part.size) / kPieces;
+    this.piece = Math.max(...size) / kPieces;
     this.base = layers[0].bottom;
-    this.top = part.size[2];
+    this.top = size[2];
     const samples = layers.filter((_, i) => i % Math.ceil(layers.length / kSamples) === 0);
     this.corners = layers.length / samples.length * samples.reduce((sum, layer) =>
       sum + this.loopsOf(layer).reduce((ofLayer, loop) => ofLayer + loop.length / 2, 0), 0);
     this.stride = Math.ceil(this.corners / corners) || 1;
     this.layers = layers.filter((_, i) => i % this.stride === 0);
-    this.thickness = part.size[2] / this.layers.length || 1;
+    this.thickness = size[2] / this.layers.length || 1;
     const slope = Math.max(this.thickness, kSlopeLength * length);
     this.half = Math.max(1, Math.round(slope / this.thickness / 2));
     this.reach = kSlopeReach * slope;
@@ -486,6 +488,7 @@ const kFragmentShader = `#version 300 es
 precision highp float;
 in vec3 direction;
 uniform vec3 solid;
+uniform float shine;  // share of the light that is mirrored
 out vec4 color;
 const float s = .581, c = .8139;  // of the viewer's elevation
 const vec3 key = vec3(-.5994, -.3384, .7251);
@@ -511,8 +514,8 @@ void main() {
   vec3 to = 2. * facing * inRoom - viewer;
   float diffuse = .75 * max(0., dot(inRoom, key)) +
       .15 * max(0., dot(inRoom, fill)) + .14 + .14 * inRoom.z;
-  vec3 light = solid * diffuse * .3 +
-      mix(solid, vec3(1), .7 * pow(1. - facing, 5.)) * room(to);
+  vec3 light = solid * diffuse * (1. - .7 * shine) +
+      mix(solid, vec3(1), .7 * pow(1. - facing, 5.)) * room(to) * shine;
   light += .7 * max(0., max(light.r, max(light.g, light.b)) - .9);
   color = vec4(pow(light, vec3(1. / 2.2)), 1);
 }`;
@@ -532,6 +535,8 @@ void main() {
 }`;
 
 const kGold = [.92, .58, .16];  // linear light
+const kSupportShine = .25;      // as in stack_picture.cpp
+const kGamma = 2.2;             // of the shader's light
 
 // "#rrggbb" as numbers from 0 to 1.
 function rgbOf(name) {
@@ -559,25 +564,42 @@ class Solid {
     if (!gl) throw new Error("The solid needs WebGL 2: this browser has no WebGL 2, or it is turned off.");
     this.lit = this.program(gl, kFragmentShader);
     this.flat = this.program(gl, kFlatShader);
-    this.surface = this.corners(gl, true);
-    this.section = this.corners(gl, true);
+    this.bodies = this.bodiesOf(gl);
     this.outline = this.corners(gl);
     this.marks = this.corners(gl);
     this.fill(gl, this.marks, this.markPlaces());
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.polygonOffset(1, 4);
     this.gl = gl;
-    const full = new PlateMesh(this.part, kFull);
-    const meshes = full.corners > 2 * kFirst.corners ?
-      [new PlateMesh(this.part, kFirst), full] : [full];
-    for (const mesh of meshes) {
-      await runInIdleTime(mesh.build());
-      this.mesh = mesh;
-      this.cut = null;
-      this.fillQuads(gl, this.surface, mesh.quads);
-      draw();
+    const full = this.bodies.map((body) => new PlateMesh(body, kFull));
+    const corners = full.reduce((sum, mesh) => sum + mesh.corners, 0);
+    const rough = corners > 2 * kFirst.corners ?
+      this.bodies.map((body) => new PlateMesh(body, kFirst)) : [];
+    for (const meshes of [rough, full]) {
+      for (const [i, mesh] of meshes.entries()) {
+        await runInIdleTime(mesh.build());
+        const body = this.bodies[i];
+        body.mesh = mesh;
+        body.cut = null;
+        this.fillQuads(gl, body.surface, mesh.quads);
+        draw();
+      }
     }
+  }
+
+  // The part, and the supports if there are any: layers in one colour, which is
+  // in linear light.
+  bodiesOf(gl) {
+    const {partLayers, supports, size} = this.part;
+    const bodyOf = (layers, isSupport, shine, color) => ({
+      layers, size, isSupport, shine, color, mesh: null, cut: null, sectionQuads: null,
+      surface: this.corners(gl, true), section: this.corners(gl, true),
+    });
+    const grey = () => rgbOf(color("support")).map((value) => value ** kGamma);
+    return [bodyOf(partLayers, false, 1, () => kGold),
+      ...supports ? [bodyOf(supports.layers, true, kSupportShine, grey)] : []];
   }
 
   program(gl, fragmentShader) {
@@ -661,9 +683,14 @@ class Solid {
   }
 
   // Draws the part up to a layer, or all of it with that layer's outline.
-  draw(index, isWhole, hasMarks) {
-    const {gl, canvas, part, mesh} = this;
-    if (!mesh) return;
+  //
+  // state: {index, marks, supports}
+  draw(state, isWhole) {
+    const {gl, canvas, part} = this;
+    const {index} = state;
+    const bodies = (this.bodies || []).filter(
+        ({mesh, isSupport}) => mesh && (state.supports || !isSupport));
+    if (bodies.length === 0) return;
     const ratio = window.devicePixelRatio || 1;
     canvas.width = Math.round(canvas.clientWidth * ratio);
     canvas.height = Math.round(canvas.clientHeight * ratio);
@@ -683,36 +710,65 @@ class Solid {
       gl.uniform3fv(uniform("center"), part.size.map((length) => length / 2));
       gl.uniform4f(uniform("lens"), this.distance(focal, aspect) / this.zoomed, focal,
           aspect, Math.hypot(...part.size) / 2 * 1.01);
-      gl.uniform3fv(uniform("solid"), kGold);
       gl.uniform1f(uniform("dotSize"), dotSize);
-      return (rgb, alpha) => gl.uniform4f(uniform("flatColor"), ...rgb, alpha);
+      return {
+        light: (solid, shine) => {
+          gl.uniform3fv(uniform("solid"), solid);
+          gl.uniform1f(uniform("shine"), shine);
+        },
+        paint: (rgb, alpha) => gl.uniform4f(uniform("flatColor"), ...rgb, alpha),
+      };
     };
-    use(this.lit, 0);
-    gl.bindVertexArray(this.surface);
-    const at = isWhole ? mesh.ends.length - 1 :
-      Math.min(mesh.ends.length - 1, Math.floor(index / mesh.stride));
     const isCut = !isWhole && index + 1 < part.layers.length;
-    gl.drawElements(gl.TRIANGLES, 6 * (isCut ? mesh.ends[at] : mesh.quads.count),
-        gl.UNSIGNED_INT, 0);
-    const paint = use(this.flat, 0);
+    const {light} = use(this.lit, 0);
+    this.forBodies(bodies, (body) => {
+      light(body.color(), body.shine);
+      this.drawSurface(body, isCut ? index : Infinity);
+    });
+    const {paint} = use(this.flat, 0);
     if (isCut) {
-      if (this.cut !== index) {
-        this.cut = index;
-        this.sectionQuads = mesh.sectionOf(part.layers[index]);
-        this.fillQuads(gl, this.section, this.sectionQuads);
-      }
-      gl.bindVertexArray(this.section);
-      paint(kGold.map((value) => .25 + .75 * value ** (1 / 2.2)), 1);
-      gl.drawElements(gl.TRIANGLES, 6 * this.sectionQuads.count, gl.UNSIGNED_INT, 0);
+      this.forBodies(bodies, (body) => {
+        paint(body.color().map((value) => .25 + .75 * value ** (1 / kGamma)), 1);
+        this.drawSection(body, index);
+      });
     }
     paint(rgbOf(color("outline")), 1);
-    this.drawOutline(index);
-    if (hasMarks) this.drawMarks(ratio, use, isWhole ? Infinity : index);
+    this.drawOutline(shownLayers(part, state)[index]);
+    if (state.marks) this.drawMarks(ratio, use, isWhole ? Infinity : index);
   }
 
-  drawOutline(index) {
+  // Where supports and the part are at one place, the part is seen.
+  forBodies(bodies, drawBody) {
+    const {gl} = this;
+    for (const body of bodies) {
+      if (body.isSupport) gl.enable(gl.POLYGON_OFFSET_FILL);
+      drawBody(body);
+      gl.disable(gl.POLYGON_OFFSET_FILL);
+    }
+  }
+
+  // All of it, or as far as a layer.
+  drawSurface({mesh, surface}, index) {
+    const {gl} = this;
+    gl.bindVertexArray(surface);
+    const at = Math.min(mesh.ends.length - 1, Math.floor(index / mesh.stride));
+    gl.drawElements(gl.TRIANGLES, 6 * (index < Infinity ? mesh.ends[at] : mesh.quads.count),
+        gl.UNSIGNED_INT, 0);
+  }
+
+  drawSection(body, index) {
+    const {gl} = this;
+    if (body.cut !== index) {
+      body.cut = index;
+      body.sectionQuads = body.mesh.sectionOf(body.layers[index]);
+      this.fillQuads(gl, body.section, body.sectionQuads);
+    }
+    gl.bindVertexArray(body.section);
+    gl.drawElements(gl.TRIANGLES, 6 * body.sectionQuads.count, gl.UNSIGNED_INT, 0);
+  }
+
+  drawOutline(layer) {
     const {gl, part} = this;
-    const layer = part.layers[index];
     const z = layer.top - part.layers[0].bottom;
     const edges = edgesOf(layer.contours);
     const lines = new Float32Array(edges.length * 3 / 2);
@@ -729,7 +785,7 @@ class Solid {
     const {gl} = this;
     const places = this.part.found ? this.part.found.places : [];
     const size = ratio * Math.min(15, Math.max(5, 15 * Math.sqrt(40 / places.length)));
-    const paint = use(this.flat, size);
+    const {paint} = use(this.flat, size);
     gl.bindVertexArray(this.marks);
     gl.enable(gl.BLEND);
     gl.depthMask(false);

@@ -80,6 +80,11 @@ class View {
   }
 }
 
+// The layers as they are shown: of the part alone, or with its supports.
+function shownLayers(part, state) {
+  return state.supports ? part.layers : part.partLayers;
+}
+
 // What was found in the print: all places but thin ones, which have lines.
 function findingsOf(part) {
   return part.found ? part.found.places.filter(({kind}) => kind !== "wall" && kind !== "gap") : [];
@@ -92,18 +97,21 @@ class Drawing {
     this.view = view;
   }
 
-  // state: {index, below, marks, pointer, ends: [{place, index}]}
+  // state: {index, below, marks, supports, pointer, ends: [{place, index}]}
   draw(state) {
     const sheet = prepare(this.canvas);
-    const layer = this.part.layers[state.index];
+    const {part} = this;
     sheet.context.fillStyle = color("field");
     sheet.context.fillRect(0, 0, sheet.width, sheet.height);
     this.drawGrid(sheet);
     if (state.below && state.index > 0) {
-      this.strokePath(sheet, this.part.layers[state.index - 1], "faint", [4, 3]);
+      this.strokePath(sheet, shownLayers(part, state)[state.index - 1], "faint", [4, 3]);
     }
-    this.fillPath(sheet, layer);
-    this.strokePath(sheet, layer, "outline", []);
+    // The part hides the tips that are in it.
+    if (part.supports && state.supports) {
+      this.drawLayer(sheet, part.supports.layers[state.index], "support", "support-outline");
+    }
+    this.drawLayer(sheet, part.partLayers[state.index], "solid", "outline");
     if (state.marks) this.drawMarks(sheet, state.index);
     this.drawMeasure(sheet, state);
     this.drawRulers(sheet, state.pointer);
@@ -115,12 +123,13 @@ class Drawing {
     context.setTransform(ratio * scale, 0, 0, -ratio * scale, ratio * x, ratio * y);
   }
 
-  fillPath(sheet, layer) {
+  drawLayer(sheet, layer, solid, outline) {
     sheet.context.save();
     this.inPart(sheet);
-    sheet.context.fillStyle = color("solid");
+    sheet.context.fillStyle = color(solid);
     sheet.context.fill(pathOf(layer));
     sheet.context.restore();
+    this.strokePath(sheet, layer, outline, []);
   }
 
   strokePath(sheet, layer, name, dashes) {
@@ -274,32 +283,37 @@ class Drawing {
   }
 }
 
-// Areas of all layers from the bottom (left) to the top, over the slider; below,
-// what was found from which layer to which, and the layers with thin places.
+// Areas of all layers from the bottom (left) to the top, over the slider, of the
+// part before those of part and supports; below, what was found from which layer to which, and the layers with thin places.
 class Plot {
   constructor(canvas, part) {
     this.canvas = canvas;
     this.part = part;
-    this.greatest = Math.max(...part.layers.map((layer) => layer.area), 1e-9);
   }
 
-  draw(index) {
+  draw(state) {
     const {context, width, height} = prepare(this.canvas);
-    const {layers} = this.part;
+    const {index} = state;
+    const layers = shownLayers(this.part, state);
+    const greatest = Math.max(...layers.map((layer) => layer.area), 1e-9);
     const foot = height - (this.part.found ? 13 : 3);
     const xOf = (i) => layers.length === 1 ? width / 2 :
       i / (layers.length - 1) * (width - 2) + 1;
-    const yOf = (layer) => foot - layer.area / this.greatest * (foot - 4);
-    context.fillStyle = context.strokeStyle = color("solid");
-    context.lineWidth = 1.5;
-    context.beginPath();
-    layers.forEach((layer, i) => context.lineTo(xOf(i), yOf(layer)));
-    context.stroke();
-    context.lineTo(xOf(layers.length - 1), foot);
-    context.lineTo(xOf(0), foot);
-    context.globalAlpha = .28;
-    context.fill();
-    context.globalAlpha = 1;
+    const yOf = (layer) => foot - layer.area / greatest * (foot - 4);
+    const areas = (ofLayers, name) => {
+      context.fillStyle = context.strokeStyle = color(name);
+      context.lineWidth = 1.5;
+      context.beginPath();
+      ofLayers.forEach((layer, i) => context.lineTo(xOf(i), yOf(layer)));
+      context.stroke();
+      context.lineTo(xOf(layers.length - 1), foot);
+      context.lineTo(xOf(0), foot);
+      context.globalAlpha = .28;
+      context.fill();
+      context.globalAlpha = 1;
+    };
+    if (layers !== this.part.partLayers) areas(layers, "support");
+    areas(this.part.partLayers, "solid");
     const bar = (kind, first, last, row) => {
       context.fillStyle = colorOf(kind);
       context.fillRect(xOf(first) - .8, foot + 2 + 5 * row,
