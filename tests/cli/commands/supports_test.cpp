@@ -25,7 +25,7 @@ TEST(SupportsCommand, WritesADesignThatNamesTheLinesItHolds) {
   folder.write("table.scad", kTable);
   const auto made = run(folder, {"supports", "table.scad", "-o", "held.scad"});
   EXPECT_EQ(made.status, 0) << made.errors;
-  const std::string text = read_file(folder.path() / "held.scad");
+  const std::string text = read_file(folder.file("held.scad"));
   EXPECT_TRUE(has(text, "include <table.scad>\n")) << text;
   EXPECT_TRUE(has(text, "]);  // table.scad:2:3\n")) << text;
   // What a user edits is still known as supports.
@@ -65,7 +65,7 @@ std::vector<double> places_of(const TemporaryFolder& folder,
   options.insert(options.begin(), {"table.scad", "--supports", "-q", "-o",
                                    "x.slc", "--report", "x.json"});
   EXPECT_EQ(run(folder, options).status, 0);
-  const json report = json::parse(read_file(folder.path() / "x.json"));
+  const json report = json::parse(read_file(folder.file("x.json")));
   std::vector<double> places;
   if (!report.contains("supports")) return places;
   for (const json& contact : report["supports"]["contacts"]) {

@@ -1,5 +1,7 @@
 // What the command line promises before any design is read.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/utf8.h"
