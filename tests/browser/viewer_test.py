@@ -15,8 +15,10 @@ from browser import Browser
 LAMINA = None
 EXAMPLES = os.path.join(os.path.dirname(__file__), "..", "..", "examples")
 
-LIGHT = {"solid": (217, 169, 64), "field": (255, 255, 253)}
-DARK = {"solid": (210, 160, 58), "field": (29, 31, 35)}
+LIGHT = {"solid": (217, 169, 64), "field": (255, 255, 253),
+         "support": (143, 166, 191)}
+DARK = {"solid": (210, 160, 58), "field": (29, 31, 35),
+        "support": (125, 149, 176)}
 
 # A plate with a round hole, off the middle, and a pin upon it.
 PLATE = """
@@ -37,6 +39,18 @@ difference() {
 }
 for (x = [7, 10])
   translate([x, 0, 5]) sphere(1);
+"""
+
+
+# A cube in the air on a bar, which is half beside it where it is in it, and a
+# post that touches nothing.
+HELD = """
+module support_of() {
+  translate([5, 2, 0]) cube([2, 2, 4.5]);
+  translate([10, 2, 0]) cube([1, 1, 8]);
+}
+translate([0, 0, 4]) cube(6);
+support_of();
 """
 
 
@@ -393,7 +407,8 @@ class ViewerTest(unittest.TestCase):
             file.write(page.replace(
                 "this.solid.open(() => this.draw())",
                 "this.solid.open(() => { (window.noted ||= []).push("
-                "[this.solid.mesh.quads.count, this.solid.mesh.layers.length,"
+                "[this.solid.bodies[0].mesh.quads.count,"
+                " this.solid.bodies[0].mesh.layers.length,"
                 " byId('working').hidden]); this.draw(); })"))
         self.open("noted.html", "theme=light")
         (rough, few, *_), (full, many, *_) = self.browser.evaluate("noted")
@@ -501,6 +516,104 @@ class ViewerTest(unittest.TestCase):
         })()""")
         # Corners are rounded to 1e-4 mm.
         self.assertLess(worst, 1e-4 * 2 * 3.1416 * 8)
+
+    def make_held(self):
+        with open(self.path("held.scad"), "w", encoding="utf-8") as file:
+            file.write(HELD)
+        lamina("view", self.path("held.scad"), "--layer", "0.25", "-o",
+               self.path("held.html"))
+
+    def test_supports_are_hidden_and_measured_apart(self):
+        self.make_held()
+        # Layers 17 and 18 have the bar in the cube.
+        for theme, colors in ("light", LIGHT), ("dark", DARK):
+            self.open("held.html", f"theme={theme}&layer=18&view=layer")
+            self.assertFalse(self.is_hidden("supports"))
+            for shows in (True, False, True):
+                support = colors["support" if shows else "field"]
+                picture = self.browser.screenshot()
+                for place, expected in [
+                        ((3.3, 3.3), colors["solid"]),
+                        ((5.5, 3.3), colors["solid"]), ((6.5, 3.3), support),
+                        ((10.5, 2.6), support), ((8.3, 3.3), colors["field"])]:
+                    self.assertEqual(picture.at(*self.on_page(*place)),
+                                     expected, (theme, shows, place))
+                self.assertEqual(self.browser.text("area"),
+                                 "39.0000 mm²" if shows else "36.0000 mm²")
+                self.assertEqual(self.browser.text("loops"),
+                                 "2" if shows else "1")
+                self.assertIn("241.00 mm³" if shows else "216.00 mm³",
+                              self.browser.text("summary"))
+                self.assertEqual(self.browser.evaluate(
+                    "document.getElementById('supports').ariaPressed"),
+                    "true" if shows else "false")
+                self.browser.press("u")
+        measured = re.search(r"supports +(.*touch the part.*)", lamina(
+            "inspect", self.path("held.scad"), "--layer", "0.25"))[1]
+        self.assertIn(measured, self.browser.text("summary"))
+
+    def test_every_layer_has_the_loops_of_its_part_and_of_its_supports(self):
+        self.make_held()
+        self.open("held.html")
+        layers = self.browser.evaluate("""(() => {
+          const areaOf = (contours) => contours.reduce((sum, loop) => {
+            for (let i = 0; i < loop.length; i += 2) {
+              const j = (i + 2) % loop.length;
+              sum += (loop[i] * loop[j + 1] - loop[j] * loop[i + 1]) / 2;
+            }
+            return sum;
+          }, 0);
+          const {layers, partLayers, supports} = viewer.part;
+          return layers.map((layer, i) => [layer.z,
+            areaOf(layer.contours), areaOf(partLayers[i].contours),
+            areaOf(supports.layers[i].contours), partLayers[i].area]);
+        })()""")
+        self.assertEqual(len(layers), 40)
+        for z, whole, part, supports, told in layers:
+            bar, post = 4 * (z < 4.5), 1 * (z < 8)
+            self.assertAlmostEqual(part, 36 * (z > 4), places=6)
+            self.assertAlmostEqual(told, part, places=6)
+            self.assertAlmostEqual(supports, bar + post, places=6)
+            self.assertAlmostEqual(
+                whole, part + supports - (2 if 4 < z < 4.5 else 0), places=6)
+
+    def test_supports_of_the_solid_are_hidden(self):
+        self.make_held()
+        for state in ("theme=light&view=3d", "theme=light&layer=18&view=3d"):
+            self.open("held.html", state)
+            left, top, width, height = self.browser.place_of("solid")
+
+            def count():
+                picture = self.browser.screenshot()
+                pixels = [picture.at(x, y)
+                          for y in range(int(top), int(top + height), 3)
+                          for x in range(int(left), int(left + width), 3)]
+                return (sum(1 for p in pixels if p[2] > p[0] + 15),
+                        sum(1 for p in pixels if p[0] > p[2] + 60))
+
+            blue, golden = count()
+            self.assertGreater(blue, 300)
+            self.assertGreater(golden, 1000)
+            self.browser.press("u")
+            self.browser.settle()
+            without = count()
+            self.assertEqual(without[0], 0)
+            # The bar and the post have hidden some of the cube.
+            self.assertGreaterEqual(without[1], golden)
+
+    def test_without_supports_nothing_speaks_of_them(self):
+        self.open("plate.html")
+        self.assertTrue(self.is_hidden("supports"))
+        self.browser.press("?")
+        self.assertNotIn("supports", self.browser.evaluate(
+            "document.getElementById('keys').innerText"))
+        self.browser.press("?")
+        area = self.browser.text("area")
+        self.browser.press("u")
+        self.assertEqual(self.browser.text("area"), area)
+        with open(self.path("plate.html"), encoding="utf-8") as file:
+            facts = re.search('id="facts">(.*)</script>', file.read())[1]
+        self.assertNotIn("supports", facts)
 
     def test_a_finding_is_turned_to(self):
         self.make_figure()

@@ -71,6 +71,96 @@ TEST(View, DrawsWhatSlicingIsAskedToDraw) {
   }
 }
 
+// Pixels of the colour of supports.
+bool is_blue(const std::array<int, 3>& pixel) {
+  return pixel[2] > pixel[0] + 20;
+}
+bool is_golden(const std::array<int, 3>& pixel) {
+  return pixel[0] > pixel[2] + 60;
+}
+
+template <typename IsMeant>
+double count_pixels(const Picture& picture, const IsMeant& is_meant) {
+  double count = 0;
+  for (unsigned y = 0; y < picture.height; ++y) {
+    for (unsigned x = 0; x < picture.width; ++x) {
+      if (is_meant(picture.at(x, y))) ++count;
+    }
+  }
+  return count;
+}
+
+// A cube of 6 mm in the air on a bar, of which 1 mm by 2 are beside the cube
+// where it is in it.
+constexpr const char* kCubeOnABar = R"(
+module support_of() { translate([5, 2, 0]) cube([2, 2, 4.5]); }
+translate([0, 0, 4]) cube(6);
+support_of();
+)";
+
+TEST(View, ShowsSupportsOfALayerInTheirColor) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kCubeOnABar);
+  const auto draw = [&](const char* file, const char* height) {
+    const auto result = run(folder, {"view", file, "-o", "a.png", "--at",
+                                     height, "--layer", "0.25"});
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return read_png(folder.file("a.png"));
+  };
+  const Picture below = draw("a.scad", "2.1");
+  EXPECT_GT(count_pixels(below, is_blue), 1e5);
+  EXPECT_EQ(count_pixels(below, is_golden), 0);
+  const Picture both = draw("a.scad", "4.3");
+  EXPECT_NEAR(count_pixels(both, is_blue) / count_pixels(both, is_golden),
+              2.0 / 36, 0.04 * 2 / 36);
+  const Picture above = draw("a.scad", "5.1");
+  EXPECT_EQ(count_pixels(above, is_blue), 0);
+  EXPECT_GT(count_pixels(above, is_golden), 1e5);
+}
+
+TEST(View, ShowsSupportsOfAStackInTheirColor) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kCubeOnABar);
+  // From the left: of the bar 2 mm by 4 are seen below the cube.
+  for (const std::string scheme : {"gold", "Cornfield"}) {
+    const auto result =
+        run(folder, {"view", "a.scad", "-o", "a.png", "--layer", "0.25",
+                     "--colorscheme", scheme, "--camera=3,3,5,90,0,270,40",
+                     "--projection=o", "--imgsize=300,300"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Picture picture = read_png(folder.file("a.png"));
+    double blue = 0;
+    double part = 0;
+    for (unsigned x = 0; x < picture.width; ++x) {
+      bool is_below = false;
+      for (unsigned y = 0; y < picture.height; ++y) {
+        const bool is_support = is_blue(picture.at(x, y));
+        // The cube is over the bar.
+        ASSERT_FALSE(is_below && is_golden(picture.at(x, y))) << x << ' ' << y;
+        is_below = is_below || is_support;
+        blue += is_support ? 1 : 0;
+        part += is_golden(picture.at(x, y)) ? 1 : 0;
+      }
+    }
+    // Lower edges are dark.
+    EXPECT_NEAR(blue / part, 8.0 / 36, 0.1 * 8 / 36) << scheme;
+  }
+}
+
+TEST(View, ShowsLayersOfAFileInOneColor) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kCubeOnABar);
+  ASSERT_EQ(run(folder, {"a.scad", "--layer", "0.25"}).status, 0);
+  for (const char* const style : {"sheet", "stack"}) {
+    ASSERT_EQ(
+        run(folder, {"view", "a.slc", "-o", "a.png", "--style", style}).status,
+        0);
+    const Picture picture = read_png(folder.file("a.png"));
+    EXPECT_EQ(count_pixels(picture, is_blue), 0) << style;
+    EXPECT_GT(count_pixels(picture, is_golden), 1000) << style;
+  }
+}
+
 // The faces of a pyramid have one direction each, however thick the layers are.
 TEST(View, SlopesOfAStackAreSmooth) {
   const TemporaryFolder folder;

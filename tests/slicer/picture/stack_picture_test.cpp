@@ -1,5 +1,5 @@
-// What pictures of stacks are made of: trapezoids, depths in layers, the
-// camera.
+// What pictures of stacks are made of: trapezoids, depths in layers, places of
+// supports, the camera.
 
 #include <algorithm>
 #include <array>
@@ -13,6 +13,7 @@
 #include "plane/loop_area.h"
 #include "slicer/picture/camera.h"
 #include "slicer/picture/detail/layer_distance.h"
+#include "slicer/picture/detail/support_places.h"
 #include "slicer/picture/detail/trapezoids.h"
 
 namespace lamina::slicer {
@@ -158,6 +159,37 @@ TEST(LayerDistance, OnAnEdgeItsLeftSideIsTheInside) {
   EXPECT_NEAR(inward.x, 0, 1e-9);
   EXPECT_NEAR(inward.y, 1, 1e-9);
   EXPECT_EQ(LayerDistance({}, 1).at({0, 0}).depth, -1);
+}
+
+plane::Contours rectangle(Vec2 low, Vec2 high) {
+  return {{low, {high.x, low.y}, high, {low.x, high.y}}, {4}};
+}
+
+// A bar that is half in the part, and a post beside both.
+TEST(SupportPlaces, AreThoseOfSupportsButNotOfThePart) {
+  Layer layer;
+  layer.part = rectangle({0, 0}, {6, 6});
+  layer.supports = rectangle({5, 2}, {7, 4});
+  layer.supports.add_loop(rectangle({9, 9}, {10, 10}).points);
+  const SupportPlaces places({{}, layer, {}});
+  for (const Vec2 place :
+       {Vec2(6.5, 3), Vec2(7, 3), Vec2(6.1, 2), Vec2(9.5, 9.5), Vec2(9, 9),
+        Vec2(10.001, 9.5), Vec2(7, 4.001)}) {
+    EXPECT_TRUE(places.hold(1, place)) << place.x << ' ' << place.y;
+  }
+  for (const Vec2 place :
+       {Vec2(3, 3), Vec2(5.5, 3), Vec2(5, 2), Vec2(6, 5), Vec2(6, 0),
+        Vec2(6.001, 1), Vec2(0, -0.02), Vec2(5.95, 3)}) {
+    EXPECT_FALSE(places.hold(1, place)) << place.x << ' ' << place.y;
+  }
+  EXPECT_FALSE(places.hold(0, {6.5, 3}));
+  EXPECT_FALSE(places.hold(2, {6.5, 3}));
+}
+
+TEST(SupportPlaces, AreNoneWhereLayersKnowOfNone) {
+  Layer layer;
+  layer.contours = rectangle({0, 0}, {6, 6});
+  EXPECT_FALSE(SupportPlaces({layer}).hold(0, {3, 3}));
 }
 
 TEST(Camera, AnEyeIsAtTheOriginOfTheView) {
