@@ -283,8 +283,9 @@ class Drawing {
   }
 }
 
-// Areas of all layers from the bottom (left) to the top, over the slider, of the
-// part before those of part and supports; below, what was found from which layer to which, and the layers with thin places.
+// Areas of all layers from the bottom (left) to the top, over the slider: the
+// part's before those of part and supports; below, what was found from which
+// layer to which, and the layers with thin places.
 class Plot {
   constructor(canvas, part) {
     this.canvas = canvas;
