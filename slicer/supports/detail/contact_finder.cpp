@@ -110,14 +110,8 @@ class WishCover {
       chosen.push_back(best.choice);
       for (const std::uint32_t k : choices_[best.choice].held) ++holders_[k];
     }
-    std::erase_if(chosen, [&](std::size_t choice) {
-      const auto& held = choices_[choice].held;
-      const bool is_needed = std::ranges::any_of(
-          held, [&](std::uint32_t k) { return holders_[k] == 1; });
-      if (is_needed) return false;
-      for (const std::uint32_t k : held) --holders_[k];
-      return true;
-    });
+    leave_out_spare(chosen);
+    join_pairs(chosen);
     for (std::size_t& choice : chosen) choice = choices_[choice].candidate;
     return chosen;
   }
@@ -153,6 +147,49 @@ class WishCover {
         for (const std::uint32_t k : found->second) {
           if (glm::distance(wishes_[k].place, place) <= radius_) visit(k);
         }
+      }
+    }
+  }
+
+  void leave_out_spare(std::vector<std::size_t>& chosen) {
+    std::erase_if(chosen, [&](std::size_t choice) {
+      const auto& held = choices_[choice].held;
+      const bool is_needed = std::ranges::any_of(
+          held, [&](std::uint32_t k) { return holders_[k] == 1; });
+      if (is_needed) return false;
+      for (const std::uint32_t k : held) --holders_[k];
+      return true;
+    });
+  }
+
+  // Puts one choice in the place of two where it holds what only these do.
+  void join_pairs(std::vector<std::size_t>& chosen) {
+    constexpr std::size_t kMost = 64;  // the pairs of more are too many
+    if (chosen.size() > kMost) return;
+    for (std::size_t a = 0; a < chosen.size(); ++a) {
+      for (std::size_t b = a + 1; b < chosen.size(); ++b) {
+        const Choice& one = choices_[chosen[a]];
+        const Choice& other = choices_[chosen[b]];
+        std::vector<std::uint32_t> both;
+        std::ranges::set_union(one.held, other.held, std::back_inserter(both));
+        std::erase_if(both, [&](std::uint32_t k) {
+          const std::uint32_t own =
+              (std::ranges::binary_search(one.held, k) ? 1U : 0U) +
+              (std::ranges::binary_search(other.held, k) ? 1U : 0U);
+          return holders_[k] > own;
+        });
+        const auto better =
+            std::ranges::find_if(choices_, [&](const Choice& choice) {
+              return choice.contacts < one.contacts + other.contacts &&
+                     std::ranges::includes(choice.held, both);
+            });
+        if (better == choices_.end()) continue;
+        for (const std::uint32_t k : one.held) --holders_[k];
+        for (const std::uint32_t k : other.held) --holders_[k];
+        for (const std::uint32_t k : better->held) ++holders_[k];
+        chosen[a] = static_cast<std::size_t>(better - choices_.begin());
+        chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(b));
+        b = a;
       }
     }
   }
