@@ -85,7 +85,7 @@ Slicing (lengths in millimetres):
   --axis AXIS         direction of building: z, x, y, -x, -y, -z, or auto: the
                       one that fits and has the fewest steps [z]
   --supports          add supports; =light for tips of 0.25 mm, =medium 0.3,
-                      =heavy 0.4, or a diameter [medium]
+                      =heavy 0.4 or a diameter; =heavy,raft on a raft [medium]
   --place-on-bed      put the lowest point of the design at height 0
   --scale FACTOR      enlarge the print, by 1.02 where casting shrinks [1]
   --compensate MM     move contours into the solid by half the beam's width [0]
@@ -129,6 +129,10 @@ More of the design:
 More of slicing:
   --turn DEG          turn the design about the axis, anticlockwise seen from
                       above [0]
+  --support-on LINES  support only what these lines of the design make: 12, or
+                      lib.scad:12, separated by commas
+  --no-support-on LINES
+                      support nothing that these lines make
   --max-layer MM      greatest thickness of adaptive layers [4 times --layer]
   --heights Z1,Z2,... cut at exactly these heights (ascending) instead
   --layers A:B        write layers A to B only, numbered as 'lamina inspect'

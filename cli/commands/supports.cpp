@@ -26,15 +26,21 @@ constexpr std::string_view kSupportsHelp =
     R"(Usage: lamina supports DESIGN -o SUPPORTED.scad [OPTION]...
 
 Writes DESIGN with supports as an OpenSCAD design: it includes or imports DESIGN
-and adds a line for each support, which you can edit, move or leave out. Slice it
-with the same --axis, --turn and --layer.
+and adds a line for each support, which you can edit, move or leave out. Behind
+each stands the line of DESIGN that it holds. Slice it with the same --axis,
+--turn and --layer.
 
 The supported design is sliced and judged: the exit status is 1 if something
 would still begin in mid-air, or reach out farther than a support holds.
 
   -o FILE             the design to write
   --supports          how thick the tips are that touch the part: =light for
-                      0.25 mm, =medium 0.3, =heavy 0.4, or a diameter [medium]
+                      0.25 mm, =medium 0.3, =heavy 0.4 or a diameter; with
+                      ,raft behind it the feet are joined to a raft [medium]
+  --support-on LINES  support only what these lines make: 12, or lib.scad:12,
+                      separated by commas
+  --no-support-on LINES
+                      support nothing that these lines make
 
 All options of Design and Slicing are those of 'lamina --help'.
 

@@ -191,6 +191,7 @@ module seat_cutter(d, clearance = 0.04, bite = 0, above = 0, hole = 0,
   tip = -g - slope * rg;
   hole_top = -g - slope * (rg - rh);
   bottom = min(-below, hole_top - 0.01);
+  $support = "none";  // it would scar the bearing
   rotate_extrude()
     polygon(concat(hole > 0 ? [[0, bottom], [rh, bottom], [rh, hole_top]]
                             : [[0, tip]],

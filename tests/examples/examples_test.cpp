@@ -173,6 +173,34 @@ TEST_P(Examples, HaveSoundContoursInEveryLayer) {
   }
 }
 
+// As the page says: no island and nothing unheld is left, and the part is as it
+// was.
+TEST_P(Examples, AreHeldBySupports) {
+  const support::TemporaryFolder folder;
+  const std::string design = design_path(GetParam().name);
+  const std::string held = folder.file("held.scad");
+  const ProcessResult made =
+      run_lamina({"supports", design, "--supports=heavy,raft", "-o", held});
+  EXPECT_EQ(made.status, 0) << made.output << made.errors;
+  const auto report_of = [&](const std::string& path) {
+    const std::string file = folder.file("report.json");
+    const ProcessResult run =
+        run_lamina({path, "-q", "-o", folder.file("x.slc"), "--report", file});
+    EXPECT_EQ(run.status, 0) << run.errors;
+    return nlohmann::json::parse(support::read_file(file));
+  };
+  const auto with = report_of(held);
+  const auto alone = report_of(design);
+  EXPECT_NEAR((with["volume_mm3"].get<double>() -
+               with["supports"]["volume_mm3"].get<double>()) /
+                  alone["volume_mm3"].get<double>(),
+              1, 1e-5);
+  for (const auto& contact : with["supports"]["contacts"]) {
+    EXPECT_FALSE(contact["is_from_above"].get<bool>());
+    EXPECT_LT(contact["area_mm2"].get<double>(), 0.4);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Examples,
                          testing::Values(Design{"solitaire", 255.95, 23.999},
                                          Design{"eternity", 186.59, 3.0},

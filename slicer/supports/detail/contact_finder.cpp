@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <numbers>
-#include <optional>
-#include <queue>
 #include <tuple>
 #include <utility>
 
@@ -17,6 +14,7 @@
 #include "slicer/check/print/layer_graph.h"
 #include "slicer/check/print/layer_overlay.h"
 #include "slicer/check/print/pole.h"
+#include "slicer/supports/detail/wish_cover.h"
 
 namespace lamina::slicer::detail {
 namespace {
@@ -27,15 +25,12 @@ constexpr double kStep = 0.5;
 constexpr double kWideLedge = 1.5;
 constexpr double kGrid = 0.5;
 
+// Of more places not all are tried, each with its images: it takes some
+// hundred bytes.
+constexpr std::size_t kMostCandidates = 100'000;
+
 // A place that a symmetry moves by less stays where it is [mm].
 constexpr double kFixed = 1e-6;
-
-// A place that must be within reach of a contact.
-struct Wish {
-  Vec2 place = Vec2(0);
-  double out = 0;           // how far it is from what is below [mm]
-  bool is_contact = false;  // a contact stands there in any case
-};
 
 // A region of a layer: an outer loop and its holes.
 plane::Contours region_of(const plane::Contours& contours,
@@ -62,151 +57,6 @@ void visit_outline(std::span<const Vec2> loop, const Visit& visit) {
     }
   }
 }
-
-// Chooses contacts that hold all wishes: each time those that hold the most of
-// what is left for each of them, a greedy cover; and leaves out again what the
-// others hold as well.
-class WishCover {
- public:
-  // wishes  the first is preferred among equal ones; must outlive it
-  // radius  within which a contact holds them [mm]
-  WishCover(const std::vector<Wish>& wishes, double radius)
-      : wishes_(wishes), radius_(radius), holders_(wishes.size()) {
-    for (std::uint32_t k = 0; k < wishes.size(); ++k) {
-      cells_[cell_of(wishes[k].place)].push_back(k);
-    }
-  }
-
-  // places  of contacts that are chosen together
-  void add(std::size_t candidate, const std::vector<Vec2>& places) {
-    Choice choice = {candidate, 0, {}};
-    for (const Vec2 place : places) {
-      const std::size_t before = choice.held.size();
-      visit_around(place, [&](std::uint32_t k) { choice.held.push_back(k); });
-      if (choice.held.size() > before) ++choice.contacts;
-    }
-    std::ranges::sort(choice.held);
-    choice.held.erase(std::ranges::unique(choice.held).begin(),
-                      choice.held.end());
-    if (choice.contacts == 0) return;
-    const double worth = worth_of(choice);
-    queue_.push({worth, choices_.size()});
-    choices_.push_back(std::move(choice));
-  }
-
-  std::vector<std::size_t> choose() {
-    std::vector<std::size_t> chosen;
-    while (!queue_.empty()) {
-      Ranked best = queue_.top();
-      queue_.pop();
-      // What a choice is worth only becomes less, so that it is the best if it
-      // still is when it is counted again (Minoux 1978).
-      best.worth = worth_of(choices_[best.choice]);
-      if (best.worth == 0) continue;
-      if (!queue_.empty() && best < queue_.top()) {
-        queue_.push(best);
-        continue;
-      }
-      chosen.push_back(best.choice);
-      for (const std::uint32_t k : choices_[best.choice].held) ++holders_[k];
-    }
-    leave_out_spare(chosen);
-    join_pairs(chosen);
-    for (std::size_t& choice : chosen) choice = choices_[choice].candidate;
-    return chosen;
-  }
-
- private:
-  struct Choice {
-    std::size_t candidate = 0;
-    std::size_t contacts = 0;
-    std::vector<std::uint32_t> held;  // wishes, ascending
-  };
-  struct Ranked {
-    double worth = 0;
-    std::size_t choice = 0;
-
-    bool operator<(const Ranked& other) const {
-      return worth != other.worth ? worth < other.worth : choice > other.choice;
-    }
-  };
-  using Cell = std::pair<int, int>;
-
-  Cell cell_of(Vec2 place) const {
-    return {static_cast<int>(std::floor(place.x / radius_)),
-            static_cast<int>(std::floor(place.y / radius_))};
-  }
-
-  template <typename Visit>
-  void visit_around(Vec2 place, const Visit& visit) const {
-    const Cell cell = cell_of(place);
-    for (int x = cell.first - 1; x <= cell.first + 1; ++x) {
-      for (int y = cell.second - 1; y <= cell.second + 1; ++y) {
-        const auto found = cells_.find({x, y});
-        if (found == cells_.end()) continue;
-        for (const std::uint32_t k : found->second) {
-          if (glm::distance(wishes_[k].place, place) <= radius_) visit(k);
-        }
-      }
-    }
-  }
-
-  void leave_out_spare(std::vector<std::size_t>& chosen) {
-    std::erase_if(chosen, [&](std::size_t choice) {
-      const auto& held = choices_[choice].held;
-      const bool is_needed = std::ranges::any_of(
-          held, [&](std::uint32_t k) { return holders_[k] == 1; });
-      if (is_needed) return false;
-      for (const std::uint32_t k : held) --holders_[k];
-      return true;
-    });
-  }
-
-  // Puts one choice in the place of two where it holds what only these do.
-  void join_pairs(std::vector<std::size_t>& chosen) {
-    constexpr std::size_t kMost = 64;  // the pairs of more are too many
-    if (chosen.size() > kMost) return;
-    for (std::size_t a = 0; a < chosen.size(); ++a) {
-      for (std::size_t b = a + 1; b < chosen.size(); ++b) {
-        const Choice& one = choices_[chosen[a]];
-        const Choice& other = choices_[chosen[b]];
-        std::vector<std::uint32_t> both;
-        std::ranges::set_union(one.held, other.held, std::back_inserter(both));
-        std::erase_if(both, [&](std::uint32_t k) {
-          const std::uint32_t own =
-              (std::ranges::binary_search(one.held, k) ? 1U : 0U) +
-              (std::ranges::binary_search(other.held, k) ? 1U : 0U);
-          return holders_[k] > own;
-        });
-        const auto better =
-            std::ranges::find_if(choices_, [&](const Choice& choice) {
-              return choice.contacts < one.contacts + other.contacts &&
-                     std::ranges::includes(choice.held, both);
-            });
-        if (better == choices_.end()) continue;
-        for (const std::uint32_t k : one.held) --holders_[k];
-        for (const std::uint32_t k : other.held) --holders_[k];
-        for (const std::uint32_t k : better->held) ++holders_[k];
-        chosen[a] = static_cast<std::size_t>(better - choices_.begin());
-        chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(b));
-        b = a;
-      }
-    }
-  }
-
-  double worth_of(const Choice& choice) const {
-    const auto left = std::ranges::count_if(
-        choice.held, [&](std::uint32_t k) { return holders_[k] == 0; });
-    return static_cast<double>(left) / static_cast<double>(choice.contacts);
-  }
-
-  const std::vector<Wish>& wishes_;
-  const double radius_;
-  std::vector<std::uint32_t> holders_;  // of each wish: contacts chosen so far
-  std::map<Cell, std::vector<std::uint32_t>> cells_;
-  std::vector<Choice> choices_;
-  std::priority_queue<Ranked> queue_;
-};
 
 class Finder {
  public:
@@ -459,7 +309,9 @@ class Finder {
     // What images hold too little of is held by contacts that have none.
     for (const auto symmetries : {symmetries_, symmetries_.first(1)}) {
       WishCover cover(wishes, reach_of_tip(sizes_.tip));
-      for (std::size_t k = 0; k < wishes.size(); ++k) {
+      const std::size_t step =
+          1 + wishes.size() * symmetries.size() / kMostCandidates;
+      for (std::size_t k = 0; k < wishes.size(); k += step) {
         if (tip_at(i, wishes[k].place) == 0) continue;
         cover.add(k, orbit_of(centered(i, wishes[k], symmetries), symmetries));
       }
