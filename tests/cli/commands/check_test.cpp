@@ -49,7 +49,8 @@ TEST(Check, NamesAWeakBond) {
   const auto overhang = [&](const std::string& text) {
     folder.write("a.scad", text);
     const auto result = run(folder, {"check", "a.scad", "--json"});
-    for (const json& finding : json::parse(result.output)["findings"]) {
+    const json print = json::parse(result.output);
+    for (const json& finding : print["findings"]) {
       if (finding["kind"] == "overhang") return finding;
     }
     return json();
@@ -65,9 +66,10 @@ TEST(Check, NamesAWeakBond) {
       overhang("cube([7, 7, 6]); translate([0, 0, 5]) cube([11, 11, 1]);");
   EXPECT_FALSE(held["is_weak"]);
   EXPECT_NEAR(held["bond"].get<double>(), 49 / 121.0, 1e-6);
-  EXPECT_FALSE(overhang("cube([7, 4, 6]); translate([14, 0, 0]) "
-                        "cube([7, 4, 6]); translate([0, 0, 5]) "
-                        "cube([21, 4, 1]);")["is_weak"]);
+  EXPECT_FALSE(
+      overhang("cube([7, 4, 6]); translate([14, 0, 0]) "
+               "cube([7, 4, 6]); translate([0, 0, 5]) "
+               "cube([21, 4, 1]);")["is_weak"]);
 }
 
 TEST(Check, FailsOnWhatItIsTold) {

@@ -116,7 +116,7 @@ TEST(SupportVariable, DecidesInTheDesign) {
 TEST(SupportVariable, IsWarnedOfWhereItIsNone) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(10, $support = \"strong\");\n");
-  const auto result = run(folder, {"a.scad", "-q", "-o", "a.slc"});
+  const auto result = run(folder, {"a.scad", "-o", "a.slc"});
   EXPECT_EQ(result.status, 0);
   EXPECT_TRUE(has(result.errors,
                   "a.scad:1:1: warning: $support is \"strong\"; expected "

@@ -1,6 +1,7 @@
 #include "tests/slicer/check/print/cell_layers.h"
 
 #include <cmath>
+#include <utility>
 
 namespace lamina::slicer {
 
