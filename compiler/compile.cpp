@@ -58,10 +58,9 @@ auto explained(const Compilation& c, const Work& work) {
 void add_supports(Compilation& c) {
   if (!c.request.supports) return;
   c.on_pass("finding supports");
-  c.report.supports =
-      plan_supports(c.request, c.evaluation_stack, c.temporary_files);
+  c.report.supports = plan_supports(c.request, c.evaluation_stack,
+                                    c.temporary_files, c.diagnostics);
   if (!c.report.supports) return;
-  warn_of_unheld(*c.report.supports, c.diagnostics);
   c.loader.append(support_lines(*c.report.supports, c.request.geometry));
 }
 

@@ -310,10 +310,6 @@ void judge(const csg::Lowered& lowered, const Request& request,
 
 slicer::Settings settings_of(const Request& request, const Machine& machine) {
   slicer::Settings settings = request.job;
-  if (request.supports && settings.print.self_supporting == 0) {
-    settings.print.self_supporting =
-        slicer::hold_radius(request.supports->tip, 0);
-  }
   if (machine.printer && machine.printer->has_panel()) {
     const Vec2 pixel = machine.printer->pixel;
     settings.print.least_area = pixel.x * pixel.y;

@@ -95,7 +95,8 @@ struct Request {
   DesignRequest design;
   GeometryRequest geometry;
   slicer::Settings job;  // how the solid is sliced
-  // Supports are added to the design.
+  // Supports are added to the design. A tip of 0 is that of the material, or
+  // the usual one.
   std::optional<slicer::SupportSizes> supports;
   SupportLines support_lines;
   OutputRequest output;

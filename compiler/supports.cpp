@@ -12,6 +12,7 @@
 
 #include "compiler/compile.h"
 #include "compiler/source_lines.h"
+#include "csg/support_tip.h"
 #include "slicer/check/thin/thin_finder.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/slice/leaf_at.h"
@@ -95,7 +96,8 @@ std::vector<slicer::MarkedSolid> marked_solids(
   };
   std::set<double> tips;
   for (const csg::Instance& instance : scene.instances) {
-    if (const double tip = tip_of(instance); tip >= 0) tips.insert(tip);
+    const double tip = tip_of(instance);  // NaN where it means nothing
+    if (tip >= 0) tips.insert(tip);
   }
   slicer::Settings settings;
   for (const slicer::Layer& layer : layers) {
@@ -108,6 +110,44 @@ std::vector<slicer::MarkedSolid> marked_solids(
     marked.push_back({tip, slice_all(*leaves, settings)});
   }
   return marked;
+}
+
+void warn_of_unheld(const slicer::SupportPlan& plan, Diagnostics& diagnostics) {
+  const auto warn = [&](std::string_view what, Vec3 place) {
+    diagnostics.own_warning({}, fmt::format("{} {:.2f}, {:.2f}, {:.2f}", what,
+                                            place.x, place.y, place.z));
+  };
+  for (const Vec3 place : plan.unheld) {
+    warn("cannot route a support to", place);
+  }
+  for (const Vec3 place : plan.unwanted) {
+    warn("needs a support, but the design or an option forbids it, at", place);
+  }
+}
+
+// Warns of a `$support` that is not one, and of lines that make nothing.
+void warn_of_marks(const csg::Scene& scene, const SupportLines& lines,
+                   Diagnostics& diagnostics) {
+  for (const csg::Instance& instance : scene.instances) {
+    if (!std::isnan(instance.support_tip)) continue;
+    diagnostics.own_warning(
+        {}, fmt::format("$support is not \"none\", \"light\", \"medium\", "
+                        "\"heavy\" or a number from {:g} to {:g}, at {}",
+                        csg::kLeastSupportTip, csg::kGreatestSupportTip,
+                        line_text(instance)));
+    break;
+  }
+  for (const auto& some : {lines.only, lines.without}) {
+    for (const std::string& line : some) {
+      const bool is_known = std::ranges::any_of(
+          scene.instances, [&](const csg::Instance& instance) {
+            return is_of_line(instance, line);
+          });
+      if (is_known) continue;
+      diagnostics.own_warning({},
+                              fmt::format("no solid comes from line {}", line));
+    }
+  }
 }
 
 // Names the lines of what the supports hold.
@@ -133,49 +173,57 @@ void name_lines(const csg::Scene& scene,
 
 }  // namespace
 
+slicer::SupportSizes support_sizes(const Request& request,
+                                   const Machine& machine) {
+  slicer::SupportSizes sizes = *request.supports;
+  if (sizes.tip == 0 && machine.material) {
+    sizes.tip = machine.material->support_tip;
+  }
+  if (sizes.tip == 0) sizes.tip = slicer::SupportSizes().tip;
+  return sizes;
+}
+
 std::optional<slicer::SupportPlan> plan_supports(const Request& request,
                                                  std::size_t evaluation_stack,
-                                                 TemporaryFiles& files) {
+                                                 TemporaryFiles& files,
+                                                 Diagnostics& diagnostics) {
   const Request part = without_supports(request);
   Compilation compilation(part, files);
   compilation.evaluation_stack = evaluation_stack;
+  std::optional<csg::Lowered> lowered;
+  std::vector<slicer::Layer> layers;
   try {
-    const auto lowered = make_geometry(compilation);
+    lowered = make_geometry(compilation);
     if (!lowered || lowered->scene() == nullptr) return std::nullopt;
-    const csg::Scene& scene = *lowered->scene();
-    const std::vector<slicer::Layer> layers = slice_all(scene, part.job);
-    slicer::SupportPlan plan = slicer::plan_supports(
-        layers, *request.supports,
-        marked_solids(
-            scene, layers,
-            {with_files(request.support_lines.only, request.design.path),
-             with_files(request.support_lines.without, request.design.path)}));
-    name_lines(scene, layers, plan);
-    return plan;
+    layers = slice_all(*lowered->scene(), part.job);
   } catch (const InternalError&) {
     throw;
   } catch (const Error&) {
     return std::nullopt;
   }
+  const csg::Scene& scene = *lowered->scene();
+  if (slicer::supports_of(scene)) {
+    throw GeometryError(
+        "The design has supports already; add them to the design without");
+  }
+  const SupportLines lines = {
+      with_files(request.support_lines.only, request.design.path),
+      with_files(request.support_lines.without, request.design.path)};
+  warn_of_marks(scene, lines, diagnostics);
+  slicer::SupportPlan plan = slicer::plan_supports(
+      layers,
+      support_sizes(request,
+                    choose_machine(request.output, files.file_access())),
+      marked_solids(scene, layers, lines));
+  name_lines(scene, layers, plan);
+  warn_of_unheld(plan, diagnostics);
+  return plan;
 }
 
 std::string support_lines(const slicer::SupportPlan& plan,
                           const GeometryRequest& geometry) {
   return slicer::support_text(
       plan, inverse_of(slicer::turn_to_axis(geometry.axis, geometry.turn)));
-}
-
-void warn_of_unheld(const slicer::SupportPlan& plan, Diagnostics& diagnostics) {
-  const auto warn = [&](std::string_view what, Vec3 place) {
-    diagnostics.own_warning({}, fmt::format("{} {:.2f}, {:.2f}, {:.2f}", what,
-                                            place.x, place.y, place.z));
-  };
-  for (const Vec3 place : plan.unheld) {
-    warn("no support finds a way to", place);
-  }
-  for (const Vec3 place : plan.unwanted) {
-    warn("the design wants no support where one is needed, at", place);
-  }
 }
 
 }  // namespace lamina::compiler

@@ -6,22 +6,30 @@
 
 #include "base/diagnostic.h"
 #include "base/file/temporary_files.h"
+#include "compiler/machine.h"
 #include "compiler/request.h"
 #include "slicer/supports/support_plan.h"
 
 namespace lamina::compiler {
 
+// The sizes of the supports that the request asks for, for a machine.
+slicer::SupportSizes support_sizes(const Request& request,
+                                   const Machine& machine);
+
 // The supports that the request asks for, made by slicing the design without
-// them. No value where the design fails: the run itself will say why.
+// them. No value where the design fails: the run itself will say why. Warns of
+// what the design or the request says of supports and does not mean anything,
+// and of places that need a support and have none.
+//
+// Throws GeometryError where the design has supports already, or would need too
+// many.
 std::optional<slicer::SupportPlan> plan_supports(const Request& request,
                                                  std::size_t evaluation_stack,
-                                                 TemporaryFiles& files);
+                                                 TemporaryFiles& files,
+                                                 Diagnostics& diagnostics);
 
 // The lines of OpenSCAD that add them to the design's text.
 std::string support_lines(const slicer::SupportPlan& plan,
                           const GeometryRequest& geometry);
-
-// Warns of places to which no support leads.
-void warn_of_unheld(const slicer::SupportPlan& plan, Diagnostics& diagnostics);
 
 }  // namespace lamina::compiler

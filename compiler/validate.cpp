@@ -92,6 +92,9 @@ void refuse_turn(const Request& request) {
   const GeometryRequest& geometry = request.geometry;
   refuse_if(geometry.turn != 0 && geometry.axis == kAutomaticAxis,
             "--axis auto turns the part itself, if it must; not with --turn");
+  refuse_if(!request.supports && (!request.support_lines.only.empty() ||
+                                  !request.support_lines.without.empty()),
+            "--support-on and --no-support-on need --supports");
   refuse_if(request.supports && geometry.axis == kAutomaticAxis,
             "--supports needs an axis, not --axis auto");
   refuse_if(request.supports && !request.job.heights.empty(),

@@ -32,7 +32,7 @@ struct CallSite {
 };
 
 // How `$support` asks for supports below a leaf: the diameter of their tips
-// [mm], 0 for none, and this where it says nothing.
+// [mm], 0 for none, NaN where it means nothing, and this where it is not set.
 inline constexpr float kNoSupportTip = -1;
 
 // $fn, $fa, $fs, $fe as in force where the module was called.

@@ -132,7 +132,7 @@ More of slicing:
   --support-on LINES  support only what these lines of the design make: 12, or
                       lib.scad:12, separated by commas
   --no-support-on LINES
-                      support nothing that these lines make
+                      add no supports to what these lines make
   --max-layer MM      greatest thickness of adaptive layers [4 times --layer]
   --heights Z1,Z2,... cut at exactly these heights (ascending) instead
   --layers A:B        write layers A to B only, numbered as 'lamina inspect'

@@ -26,21 +26,22 @@ constexpr std::string_view kSupportsHelp =
     R"(Usage: lamina supports DESIGN -o SUPPORTED.scad [OPTION]...
 
 Writes DESIGN with supports as an OpenSCAD design: it includes or imports DESIGN
-and adds a line for each support, which you can edit, move or leave out. Behind
-each stands the line of DESIGN that it holds. Slice it with the same --axis,
---turn and --layer.
+and adds a line for each support, which you can edit, move or leave out. A
+comment after each names the line of DESIGN that it supports. Slice it with the
+same --axis, --turn and --layer.
 
 The supported design is sliced and judged: the exit status is 1 if something
 would still begin in mid-air, or reach out farther than a support holds.
 
   -o FILE             the design to write
   --supports          how thick the tips are that touch the part: =light for
-                      0.25 mm, =medium 0.3, =heavy 0.4 or a diameter; with
-                      ,raft behind it the feet are joined to a raft [medium]
+                      0.25 mm, =medium 0.3, =heavy 0.4 or a diameter; add
+                      ,raft to join the feet with a raft [that of the material,
+                      or medium]
   --support-on LINES  support only what these lines make: 12, or lib.scad:12,
                       separated by commas
   --no-support-on LINES
-                      support nothing that these lines make
+                      add no supports to what these lines make
 
 All options of Design and Slicing are those of 'lamina --help'.
 
@@ -53,7 +54,7 @@ class SupportsCommand : public Command {
   std::string_view help() const override { return kSupportsHelp; }
 
   void add_options(OptionList& options) override {
-    request_.supports = slicer::SupportSizes();
+    request_.supports = slicer::SupportSizes{.tip = 0};
     options.word("design", request_.design.path).required();
     options.name("-o", "file", output_).required();
     add_print_options(options, request_);
@@ -63,7 +64,8 @@ class SupportsCommand : public Command {
 
   void check() override {
     refuse_if(!output_.ends_with(".scad"),
-              "supports writes a .scad design; '{}' is none", output_);
+              "supports writes a .scad design, but '{}' does not end in .scad",
+              output_);
     refuse_if(!request_.design.parameter_file.empty(),
               "supports takes values from -D, not from -p and -P");
     compiler::validate(request_);
@@ -107,7 +109,8 @@ class SupportsCommand : public Command {
         finding_table(print, compiler::texts_of(whole.lines.findings));
     text.pop_back();
     terminal.say(text);
-    return hangs || !plan.unheld.empty() ? kFault : kDone;
+    return hangs || !plan.unheld.empty() || !plan.unwanted.empty() ? kFault
+                                                                   : kDone;
   }
 
   compiler::Request request_;

@@ -36,22 +36,39 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
+// "12", "lib.scad:12".
+std::vector<std::string> lines_of(const std::string& option,
+                                  const std::string& text) {
+  std::vector<std::string> lines = words_of(text);
+  for (const std::string& line : lines) {
+    const std::size_t colon = line.rfind(':');
+    const std::string number =
+        colon == std::string::npos ? line : line.substr(colon + 1);
+    require(colon != 0 && !number.empty() &&
+                std::ranges::all_of(
+                    number, [](char c) { return c >= '0' && c <= '9'; }),
+            option, "expected lines such as 12 or lib.scad:12, not '{}'", line);
+  }
+  return lines;
+}
+
 // "heavy", "0.35", "light,raft", "raft"; "true" where nothing was given.
 slicer::SupportSizes sizes_of(const std::string& text) {
-  slicer::SupportSizes sizes;
+  slicer::SupportSizes sizes = {.tip = 0};
   for (const std::string& word : words_of(text)) {
     if (word == "true") continue;
     if (word == "raft") {
       sizes.has_raft = true;
       continue;
     }
+    require(sizes.tip == 0, "--supports", "there are two sizes in '{}'", text);
     std::optional<double> tip = csg::support_tip_named(word);
     if (!tip) tip = parse_number(word);
     require(tip && *tip >= csg::kLeastSupportTip &&
                 *tip <= csg::kGreatestSupportTip,
             "--supports",
-            "light, medium, heavy or {:g} to {:g} (mm) was expected, and raft "
-            "behind a comma, not '{}'",
+            "expected light, medium, heavy or {:g} to {:g} (mm), and ,raft for "
+            "a raft; got '{}'",
             csg::kLeastSupportTip, csg::kGreatestSupportTip, word);
     sizes.tip = *tip;
   }
@@ -163,10 +180,10 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
     request.supports = sizes_of(size);
   });
   options.text("--support-on", "lines", [&request](const std::string& text) {
-    request.support_lines.only = words_of(text);
+    request.support_lines.only = lines_of("--support-on", text);
   });
   options.text("--no-support-on", "lines", [&request](const std::string& text) {
-    request.support_lines.without = words_of(text);
+    request.support_lines.without = lines_of("--no-support-on", text);
   });
   options.flag("--place-on-bed", request.geometry.is_placed_on_bed);
   options.choice(

@@ -164,8 +164,9 @@ std::string contact_table(
   };
   std::map<std::string_view, Touched> by_line;
   for (std::size_t i = 0; i < source_lines.size(); ++i) {
-    if (source_lines[i].empty()) continue;
-    Touched& touched = by_line[source_lines[i]];
+    Touched& touched =
+        by_line[source_lines[i].empty() ? "lines that are not known"
+                                        : std::string_view(source_lines[i])];
     touched.area += supports->contacts[i].area;
     ++touched.places;
   }

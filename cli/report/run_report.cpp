@@ -184,15 +184,14 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
     json["print"] = print_json(*report.slice.print, report.lines.findings);
   }
   json.update(machine_json(report.machine, report.estimate));
-  const auto& measures = report.slice.supports;
-  if (measures || report.supports) {
-    json["supports"] = supports_json(
-        measures.value_or(slicer::SupportMeasures()), report.lines.contacts);
+  if (const auto& measures = report.slice.supports) {
+    json["supports"] = supports_json(*measures, report.lines.contacts);
   }
   if (const auto& plan = report.supports) {
     json["supports"].update({{"count", plan->supports.size()},
                              {"on_part", plan->count_on_part()},
                              {"unheld", plan->unheld.size()},
+                             {"unwanted", plan->unwanted.size()},
                              {"tip_mm", plan->sizes.tip}});
   }
   if (settings.min_feature > 0) {

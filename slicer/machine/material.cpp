@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "csg/support_tip.h"
 #include "slicer/machine/detail/profile.h"
 
 namespace lamina::slicer {
@@ -42,9 +43,9 @@ Price read_price(const json& object, const char* member,
 
 Material read_material(const json& object) {
   detail::require_members(
-      object,
-      {"name", "title", "also", "source", "density", "exposures",
-       "price_per_litre", "price_per_gram", "price_per_ounce", "currency"});
+      object, {"name", "title", "also", "source", "density", "exposures",
+               "price_per_litre", "price_per_gram", "price_per_ounce",
+               "currency", "support_tip_mm"});
   Material material;
   material.name = detail::read_line(object, "name");
   material.title = detail::read_line(object, "title", material.name);
@@ -53,6 +54,9 @@ Material read_material(const json& object) {
   object.at("density");  // which none can do without
   material.density =
       detail::read_number(object, "density", 0.01, kGreatestDensity, 0);
+  material.support_tip =
+      detail::read_number(object, "support_tip_mm", csg::kLeastSupportTip,
+                          csg::kGreatestSupportTip, 0);
   if (object.contains("exposures")) {
     for (const json& exposure : object.at("exposures")) {
       material.exposures.push_back(read_exposure(exposure));

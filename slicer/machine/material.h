@@ -56,6 +56,7 @@ struct Material {
   double density = 0;                    // [g/cm³]
   std::vector<KnownExposure> exposures;  // of a resin, if known
   std::optional<Price> price;
+  double support_tip = 0;  // diameter of the tips that hold it [mm]; 0: usual
 
   // [g]
   double weight(double volume_mm3) const { return density * volume_mm3 / 1000; }

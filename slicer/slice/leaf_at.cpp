@@ -1,6 +1,7 @@
 #include "slicer/slice/leaf_at.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <iterator>
 #include <vector>
@@ -17,6 +18,9 @@ constexpr std::size_t kMostFindings = 1000;
 
 // How far beside a place is looked for what made it [mm]: within a pixel.
 constexpr double kAside = 0.02;
+constexpr std::array<Vec2, 5> kAsides = {Vec2(0), Vec2(kAside, 0),
+                                         Vec2(-kAside, 0), Vec2(0, kAside),
+                                         Vec2(0, -kAside)};
 
 struct Winding {
   std::uint32_t instance = 0;
@@ -97,8 +101,7 @@ void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
   for (Finding* const finding : wanted) {
     const std::uint32_t layer = layer_at(grid, finding->section_z);
     // The farthest place of an overhang may be a corner of the layer.
-    for (const Vec2 aside : {Vec2(0), Vec2(kAside, 0), Vec2(-kAside, 0),
-                             Vec2(0, kAside), Vec2(0, -kAside)}) {
+    for (const Vec2 aside : kAsides) {
       const auto changed =
           changed_at(here, below, layer, finding->place + aside);
       if (changed.empty()) continue;
@@ -115,11 +118,14 @@ void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
                  std::span<SupportContact> contacts) {
   LeafFinder finder(scene, grid);
   for (SupportContact& contact : contacts) {
-    for (const std::uint32_t instance :
-         finder.find(layer_at(grid, contact.section_z), contact.place)) {
-      if (is_support(scene.instances[instance])) continue;
-      contact.instance = instance;
-      break;
+    const std::uint32_t layer = layer_at(grid, contact.section_z);
+    for (const Vec2 aside : kAsides) {
+      for (const std::uint32_t instance :
+           finder.find(layer, contact.place + aside)) {
+        if (is_support(scene, scene.instances[instance])) continue;
+        contact.instance = std::min(contact.instance, instance);
+      }
+      if (contact.instance != kNoInstance) break;
     }
   }
 }

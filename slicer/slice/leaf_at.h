@@ -18,7 +18,7 @@ void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
                  std::span<Finding> findings);
 
 // Sets the instances of contacts: the first that contains the contact's place
-// in the part's layer and is no support.
+// in the part's layer and is not a support.
 void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
                  std::span<SupportContact> contacts);
 

@@ -14,6 +14,7 @@
 #include "slicer/slice/detail/slice_job.h"
 #include "slicer/slice/leaf_at.h"
 #include "slicer/slice/support_scene.h"
+#include "slicer/supports/support_plan.h"
 
 namespace lamina::slicer {
 namespace {
@@ -97,6 +98,15 @@ void require_height(const csg::Scene& scene, const Settings& settings) {
                   report.layers_there));
 }
 
+// What a tip holds is no overhang, unless the user says what is.
+Settings with_hold(Settings settings, const csg::Scene& supports) {
+  const double tip = supports.instances.front().support_tip;
+  if (settings.print.self_supporting == 0 && tip > 0) {
+    settings.print.self_supporting = hold_radius(tip, 0);
+  }
+  return settings;
+}
+
 // In the plane z = 0.
 Box3 box_of(const plane::Contours& contours) {
   Box3 box;
@@ -148,16 +158,17 @@ void SliceReport::add(const LayerMeasures& layer, double bottom, double top) {
 }
 
 SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
-                  const Settings& settings, LayerSink& sink,
+                  const Settings& asked, LayerSink& sink,
                   Diagnostics& diagnostics) {
   SliceReport report;
   Plans plans;
-  const std::optional<csg::Scene> supports = leaves_of(scene, is_support);
+  const std::optional<csg::Scene> supports = supports_of(scene);
+  const Settings settings = supports ? with_hold(asked, *supports) : asked;
   csg::Scene part;
   report.section_seconds = measure_seconds([&] {
     plans.whole = plan_blocks(scene, settings, grid);
     if (!supports) return;
-    part = without_leaves(scene, is_support);
+    part = without_supports(scene);
     plans.part = plan_blocks(part, settings, grid);
     plans.supports = plan_blocks(*supports, settings, grid);
   });

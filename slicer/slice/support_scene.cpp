@@ -29,31 +29,39 @@ std::optional<csg::Scene> leaves_of(
   return part;
 }
 
-csg::Scene without_leaves(
-    const csg::Scene& scene,
-    const std::function<bool(const csg::Instance&)>& is_unwanted) {
+bool is_support(const csg::Scene& scene, const csg::Instance& instance) {
+  bool is_made = false;
+  for (const csg::CallSite* call = instance.caller; call != nullptr && !is_made;
+       call = call->caller) {
+    is_made = std::ranges::count(kSupportModules, call->name) > 0;
+  }
+  if (!is_made) return false;
+  for (std::uint32_t node = instance.parent;;
+       node = scene.program[node].parent) {
+    if (scene.program[node].op != plane::BooleanOp::kUnion) return false;
+    if (node == 0) return true;
+  }
+}
+
+std::optional<csg::Scene> supports_of(const csg::Scene& scene) {
+  return leaves_of(scene, [&](const csg::Instance& instance) {
+    return is_support(scene, instance);
+  });
+}
+
+csg::Scene without_supports(const csg::Scene& scene) {
   csg::Scene rest = scene;
   rest.instances.clear();
   rest.box = {};
   for (const csg::Instance& instance : scene.instances) {
-    if (is_unwanted(instance)) {
+    if (is_support(scene, instance)) {
       --rest.program[instance.parent].child_count;
     } else {
       rest.instances.push_back(instance);
+      rest.box.add(instance.box);
     }
   }
-  for (const csg::Instance& instance : rest.instances) {
-    rest.box.add(instance.box);
-  }
   return rest;
-}
-
-bool is_support(const csg::Instance& instance) {
-  for (const csg::CallSite* call = instance.caller; call != nullptr;
-       call = call->caller) {
-    if (std::ranges::count(kSupportModules, call->name) > 0) return true;
-  }
-  return false;
 }
 
 }  // namespace lamina::slicer

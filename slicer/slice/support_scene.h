@@ -1,5 +1,9 @@
 #pragma once
-// Some leaves of a scene by themselves: the supports above all.
+// Some leaves of a scene by themselves: its supports above all.
+//
+// Supports are leaves that one of kSupportModules made and that nothing but
+// unions has changed. What a difference or an intersection has in hand belongs
+// to the part.
 
 #include <functional>
 #include <optional>
@@ -14,13 +18,11 @@ std::optional<csg::Scene> leaves_of(
     const csg::Scene& scene,
     const std::function<bool(const csg::Instance&)>& is_wanted);
 
-// The scene without the leaves that are not wanted. These must be operands of
-// unions.
-csg::Scene without_leaves(
-    const csg::Scene& scene,
-    const std::function<bool(const csg::Instance&)>& is_unwanted);
+bool is_support(const csg::Scene& scene, const csg::Instance& instance);
 
-// Whether one of kSupportModules made the leaf.
-bool is_support(const csg::Instance& instance);
+// No value where there are none.
+std::optional<csg::Scene> supports_of(const csg::Scene& scene);
+
+csg::Scene without_supports(const csg::Scene& scene);
 
 }  // namespace lamina::slicer

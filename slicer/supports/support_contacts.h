@@ -2,10 +2,10 @@
 // Where supports touch the part, and how much of it.
 //
 // A layer of a design with supports knows the part and the supports by
-// themselves. What of the part is not over the part, but over a support of the
-// layer below, is a piece of a **contact**; pieces of neighbouring layers that
-// touch are one. A support that stands on the part touches it in the same way
-// from above. Areas are as seen from above.
+// themselves. Where the part lies over a support of the layer below and not
+// over itself, it touches that support: a piece of a **contact**. Pieces of
+// neighbouring layers that touch make one contact. A support that stands on the
+// part touches it in the same way from above. Areas are as seen from above.
 
 #include <cstdint>
 #include <string>
@@ -26,7 +26,7 @@ struct SupportContact {
 };
 
 struct SupportMeasures {
-  double volume = 0;                     // of what the part has not [mm³]
+  double volume = 0;  // of the supports outside the part [mm³]
   std::vector<SupportContact> contacts;  // from the bottom to the top
 
   double contact_area() const;  // of all [mm²]

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "base/diagnostic.h"
 #include "base/text.h"
 #include "slicer/supports/detail/contact_finder.h"
 #include "slicer/supports/detail/layer_solids.h"
@@ -90,6 +91,22 @@ std::vector<Support> route(const detail::SupportRouter& router,
   return all;
 }
 
+// Throws where the part is wider than any resin printer builds: its places
+// would take minutes.
+void require_size(std::span<const Layer> layers) {
+  constexpr double kWidest = 500;  // [mm]
+  Box2 box;
+  for (const Layer& layer : layers) {
+    box.add(std::span<const Vec2>(layer.contours.points));
+  }
+  if (box.is_empty()) return;
+  const Vec2 size = box.size();
+  if (size.x <= kWidest && size.y <= kWidest) return;
+  throw GeometryError(fmt::format(
+      "The design is {:.4g} x {:.4g} mm, too wide for supports: at most {:g}",
+      size.x, size.y, kWidest));
+}
+
 // Where the bed is, so that the part keeps its layers.
 double bed_below(const Layer& first, double lift) {
   constexpr double kRounding = 1e-6;  // of layers
@@ -108,6 +125,7 @@ SupportPlan plan_supports(std::span<const Layer> layers,
   if (layers.empty() || !(layers.front().bottom < layers.front().top)) {
     return plan;
   }
+  require_size(layers);
   plan.bed = bed_below(layers.front(), sizes.lift);
   const detail::LayerSolids solids(layers);
   std::vector<detail::MarkedPlaces> places;

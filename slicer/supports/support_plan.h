@@ -14,7 +14,7 @@
 // and more above it: see hold_radius().
 //
 // A part that is mirrored or n-fold symmetric, seen from above, gets supports
-// that are so, too.
+// with the same symmetry.
 
 #include <array>
 #include <cstddef>
@@ -86,6 +86,8 @@ struct MarkedSolid {
   std::vector<Layer> layers;
 };
 
+// Throws GeometryError where the part is wider than 500 mm.
+//
 // layers  of the whole part, in ascending order
 // marked  where two of them are in one place, the first counts
 SupportPlan plan_supports(std::span<const Layer> layers,

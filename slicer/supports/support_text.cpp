@@ -9,53 +9,65 @@
 namespace lamina::slicer {
 namespace {
 
-// Names that no design is likely to have.
-constexpr const char* kModules = R"(
-// A cone between two balls.
-module support_rod(from, to, d1, d2) {
-  hull() {
-    translate(from) sphere(d = d1, $fn = 16);
-    translate(to) sphere(d = d2, $fn = 16);
+// All of it is in one module, so that no name of the design means anything
+// else.
+constexpr const char* kBegin = R"(
+// Supports, one per line: edit, move or delete them. The comment names what each
+// one holds.
+module lamina_supports() {
+)";
+
+constexpr const char* kModules =
+    R"(  $support = support_tip;  // lamina judges by it
+
+  // A cone between two balls.
+  module support_rod(from, to, d1, d2) {
+    hull() {
+      translate(from) sphere(d = d1, $fn = 16);
+      translate(to) sphere(d = d2, $fn = 16);
+    }
   }
-}
 
-// How thick the end of a cone inside the part is, for it to touch the part with
-// the tip's diameter, and not to come out of the other side.
-function support_end(inside, neck, tip, depth) =
-  min(2 * depth, tip - (support_pillar - tip) * depth /
-                       (norm(neck - inside) - depth));
+  // How thick the end of a cone inside the part is, for it to touch the part
+  // with the tip's diameter, and not to come out of the other side.
+  function support_end(inside, neck, tip, depth) =
+    min(2 * depth, tip - (support_pillar - tip) * depth /
+                         (norm(neck - inside) - depth));
 
-// A way down: from inside the part, down the head, past bends, to the foot on
-// the bed; or, if it lands, to a second tip inside the part; or, if it joins, to
-// another pillar.
-module support_of(path, lands = false, joins = false, tip = support_tip,
-                  depth = support_tip / 2) {
-  last = len(path) - 1;
-  for (i = [0 : last - 1])
-    support_rod(path[i], path[i + 1],
-                i == 0 ? support_end(path[0], path[1], tip, depth) : support_pillar,
-                lands && i == last - 1
-                  ? support_end(path[last], path[last - 1], tip, depth)
-                  : support_pillar);
-  if (!lands && !joins)
-    translate(path[last] - [0, 0, support_foot_height])
-      cylinder(d1 = support_foot, d2 = support_pillar, h = support_foot_height,
-               $fn = 32);
-}
+  // A way down: from inside the part, down the head, past bends, to the foot on
+  // the bed; or, if it lands, to a second tip inside the part; or, if it joins,
+  // to another pillar. A tip is as deep in the part as half of its diameter.
+  module support_of(path, lands = false, joins = false, tip = support_tip,
+                    depth = 0) {
+    last = len(path) - 1;
+    deep = depth > 0 ? depth : tip / 2;
+    for (i = [0 : last - 1])
+      support_rod(path[i], path[i + 1],
+                  i == 0 ? support_end(path[0], path[1], tip, deep)
+                         : support_pillar,
+                  lands && i == last - 1
+                    ? support_end(path[last], path[last - 1], tip, deep)
+                    : support_pillar);
+    if (!lands && !joins)
+      translate(path[last] - [0, 0, support_foot_height])
+        cylinder(d1 = support_foot, d2 = support_pillar,
+                 h = support_foot_height, $fn = 32);
+  }
 )";
 
 constexpr const char* kBraceModule = R"(
-// A rod between two pillars.
-module support_brace(from, to)
-  support_rod(from, to, support_brace_d, support_brace_d);
+  // A rod between two pillars.
+  module support_brace(from, to)
+    support_rod(from, to, support_brace_d, support_brace_d);
 )";
 
 constexpr const char* kRaftModule = R"(
-// A plate that joins the feet; its sides lean, so that a scraper gets below it.
-module support_raft(feet) hull()
-  for (foot = feet) translate(foot)
-    cylinder(d1 = support_foot, d2 = support_foot + 2 * support_foot_height,
-             h = support_foot_height, $fn = 32);
+  // A plate that joins the feet; its sides lean outwards, so that a scraper can
+  // get under it.
+  module support_raft(feet) hull()
+    for (foot = feet) translate(foot)
+      cylinder(d1 = support_foot, d2 = support_foot + 2 * support_foot_height,
+               h = support_foot_height, $fn = 32);
 )";
 
 // "1.5", "0.125": as short as a micrometre allows.
@@ -77,22 +89,21 @@ class TextMaker {
 
   std::string make(const Affine& design_from_job) {
     add_head();
-    const bool is_turned = design_from_job != Affine(1.0);
-    if (is_turned) {
+    for (const Support& support : plan_.supports) add_support(support);
+    for (const auto& [from, to] : plan_.braces) {
+      add("  support_brace({}, {});\n", words(from), words(to));
+    }
+    if (plan_.sizes.has_raft) add_raft();
+    text_ += "}\n";
+    if (design_from_job != Affine(1.0)) {
       const Affine& m = design_from_job;
       text_ += "multmatrix([";
       for (int row = 0; row < 3; ++row) {
         add("[{}, {}, {}, {}], ", m[0][row], m[1][row], m[2][row], m[3][row]);
       }
-      text_ += "[0, 0, 0, 1]]) {\n";
-      indent_ = "  ";
+      text_ += "[0, 0, 0, 1]]) ";
     }
-    for (const Support& support : plan_.supports) add_support(support);
-    for (const auto& [from, to] : plan_.braces) {
-      add("{}support_brace({}, {});\n", indent_, words(from), words(to));
-    }
-    if (plan_.sizes.has_raft) add_raft();
-    if (is_turned) text_ += "}\n";
+    text_ += "lamina_supports();\n";
     return std::move(text_);
   }
 
@@ -105,16 +116,15 @@ class TextMaker {
 
   void add_head() {
     const SupportSizes& sizes = plan_.sizes;
-    add("\n// Supports: one a line, to be edited, moved or left out. Behind "
-        "each is what it\n// holds.\n"
-        "support_tip = {:g};  // diameter where it touches the part [mm]\n"
-        "support_pillar = {:g};  // diameter\n",
+    text_ += kBegin;
+    add("  support_tip = {:g};  // diameter where it touches the part [mm]\n"
+        "  support_pillar = {:g};  // diameter\n",
         sizes.tip, sizes.pillar);
     if (!plan_.braces.empty()) {
-      add("support_brace_d = {:g};  // diameter\n", sizes.brace);
+      add("  support_brace_d = {:g};  // diameter\n", sizes.brace);
     }
-    add("support_foot = {:g};  // diameter on the bed\n"
-        "support_foot_height = {:g};\n",
+    add("  support_foot = {:g};  // diameter on the bed\n"
+        "  support_foot_height = {:g};\n",
         sizes.foot, sizes.foot_height);
     text_ += kModules;
     if (!plan_.braces.empty()) text_ += kBraceModule;
@@ -123,7 +133,7 @@ class TextMaker {
   }
 
   void add_support(const Support& support) {
-    add("{}support_of([", indent_);
+    text_ += "  support_of([";
     for (std::size_t i = 0; i < support.path.size(); ++i) {
       text_ += (i == 0 ? "" : ", ") + words(support.path[i]);
     }
@@ -131,7 +141,7 @@ class TextMaker {
     if (support.end == SupportEnd::kPart) text_ += ", lands = true";
     if (support.end == SupportEnd::kPillar) text_ += ", joins = true";
     if (support.tip != plan_.sizes.tip) add(", tip = {}", word(support.tip));
-    if (support.depth != plan_.sizes.tip / 2) {
+    if (support.depth != support.tip / 2) {
       add(", depth = {}", word(support.depth));
     }
     text_ += ");";
@@ -140,7 +150,7 @@ class TextMaker {
   }
 
   void add_raft() {
-    add("{}support_raft([", indent_);
+    text_ += "  support_raft([";
     bool is_first = true;
     for (const Support& support : plan_.supports) {
       if (support.end != SupportEnd::kFoot) continue;
@@ -154,7 +164,6 @@ class TextMaker {
 
   const SupportPlan& plan_;
   std::string text_;
-  std::string indent_;
 };
 
 }  // namespace

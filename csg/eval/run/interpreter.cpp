@@ -3,12 +3,13 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 #include <sanitizer/asan_interface.h>
 
 #include "csg/eval/value/operators.h"
-#include "csg/eval/value/text.h"
 #include "csg/support_tip.h"
 
 namespace lamina::csg {
@@ -336,7 +337,7 @@ void Interpreter::fail_leaves(SourceRange range) {
        nullptr);
 }
 
-float Interpreter::support_tip(SourceRange range) {
+float Interpreter::support_tip() const {
   const Value& value = dynamic_[kSupport];
   if (value.is_undef()) return kNoSupportTip;
   std::optional<double> tip;
@@ -346,13 +347,8 @@ float Interpreter::support_tip(SourceRange range) {
                                   value.as_number() <= kGreatestSupportTip))) {
     tip = value.as_number();
   }
-  if (tip) return static_cast<float>(*tip);
-  diagnostics_.own_warning(
-      range,
-      fmt::format("$support is {}; expected \"none\", \"light\", \"medium\", "
-                  "\"heavy\" or a number from {:g} to {:g}",
-                  to_echo(value), kLeastSupportTip, kGreatestSupportTip));
-  return kNoSupportTip;
+  return static_cast<float>(
+      tip.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
 void Interpreter::make_node(decltype(Node::op) op,
@@ -366,7 +362,7 @@ void Interpreter::make_node(decltype(Node::op) op,
   node->children = keep_all(nodes_since(mark));
   node->range = code.range;
   node->caller = current_call;
-  node->support_tip = support_tip(code.range);
+  node->support_tip = support_tip();
   node->is_root = code.modifiers.root;
   node->is_highlight = code.modifiers.highlight;
   node->is_background = code.modifiers.background;

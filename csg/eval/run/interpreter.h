@@ -265,8 +265,8 @@ class Interpreter {
                                const FunctionLiteral& literal);
   // Extends the tables to what resolving brought up.
   void make_room();
-  // The value of `$support` for the tree. Warns where it is not one.
-  float support_tip(SourceRange range);
+  // The value of `$support` for the tree.
+  float support_tip() const;
 
   LazyResolver& resolver_;
   DynamicNames& names_;

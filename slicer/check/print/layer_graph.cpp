@@ -105,12 +105,11 @@ std::string size_text(const Finding& finding) {
               ? fmt::format("held from layer {} on", finding.last_layer + 1)
               : "never held");
     case FindingKind::kOverhang:
-      return fmt::format("{:.4g} mm², reaches out {:.3g} mm{}", finding.area,
-                         finding.distance,
-                         finding.is_weak()
-                             ? fmt::format(", {:.0f} % of its layer holds it",
-                                           100 * finding.bond)
-                             : "");
+      return fmt::format(
+          "{:.4g} mm², reaches out {:.3g} mm{}", finding.area, finding.distance,
+          finding.is_weak() ? fmt::format(", {:.0f} % of its layer holds it",
+                                          100 * finding.bond)
+                            : "");
     default:
       return fmt::format("{:.4g} mm³, {:.4g} mm² at most", finding.volume,
                          finding.area);

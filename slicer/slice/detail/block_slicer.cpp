@@ -33,6 +33,24 @@ class FaithfulSlicer : public BlockSlicer {
   bool repeats(std::uint32_t index) const override {
     return chains_.repeats(index);
   }
+  bool reaches(std::uint32_t index, const Box2& box) const override {
+    return std::ranges::any_of(
+        chains_.layer(index), [&](const plane::Chain& chain) {
+          const auto points = chain.points_in(chains_.points);
+          // They advance in x.
+          auto at = std::ranges::lower_bound(
+              points, box.low.x, {}, [](Vec2 point) { return point.x; });
+          if (at == points.end()) return false;
+          if (at != points.begin()) --at;
+          Box2 passed;
+          for (; at != points.end(); ++at) {
+            passed.add(*at);
+            if (at->x > box.high.x) break;
+          }
+          passed.intersect(box);
+          return !passed.is_empty();
+        });
+  }
   void make_contours(std::uint32_t index, plane::Contours& contours) override {
     ray_.sweep(chains_, index, contours);
   }

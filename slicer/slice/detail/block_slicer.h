@@ -26,6 +26,11 @@ class BlockSlicer {
                        std::uint32_t layer_count) = 0;
   // Whether layer `index` of the block has the loops of the one before it.
   virtual bool repeats(std::uint32_t /*index*/) const { return false; }
+  // Whether a leaf's section in layer `index` of the block may reach into the
+  // box.
+  virtual bool reaches(std::uint32_t /*index*/, const Box2& /*box*/) const {
+    return true;
+  }
   // Replaces `contours` by the loops of layer `index` of the block.
   virtual void make_contours(std::uint32_t index,
                              plane::Contours& contours) = 0;

@@ -105,7 +105,7 @@ class Worker {
   void make_contours(Block& block) {
     for_each_new(block, [&](std::uint32_t i, Draft& draft) {
       slicer_->make_contours(i, draft.layer.contours);
-      if (support_slicer_) tell_supports_apart(i, draft.layer);
+      if (support_slicer_) separate_supports(i, draft.layer);
     });
   }
 
@@ -161,10 +161,17 @@ class Worker {
     }
   }
 
-  // Where no support touches the part, its loops are all there is to leave out.
-  void tell_supports_apart(std::uint32_t i, Layer& layer) {
+  // Where the part is not near a support, the loops of supports are all there
+  // is to leave out.
+  void separate_supports(std::uint32_t i, Layer& layer) {
     support_slicer_->make_contours(i, layer.supports);
-    if (!take_out(layer.contours, layer.supports, layer.part)) {
+    bool is_near = false;
+    for (std::size_t l = 0; l < layer.supports.loop_count() && !is_near; ++l) {
+      Box2 box;
+      box.add(layer.supports.loop(l));
+      is_near = part_slicer_->reaches(i, box);
+    }
+    if (is_near || !take_out(layer.contours, layer.supports, layer.part)) {
       part_slicer_->make_contours(i, layer.part);
     }
   }

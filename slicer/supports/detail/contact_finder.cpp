@@ -25,8 +25,8 @@ constexpr double kStep = 0.5;
 constexpr double kWideLedge = 1.5;
 constexpr double kGrid = 0.5;
 
-// Of more places not all are tried, each with its images: it takes some
-// hundred bytes.
+// Beyond this many candidates only some are tried, because each takes a few
+// hundred bytes with its images.
 constexpr std::size_t kMostCandidates = 100'000;
 
 // A place that a symmetry moves by less stays where it is [mm].
@@ -346,8 +346,9 @@ class Finder {
     return orbit;
   }
 
-  // The diameter of a tip at a place of a layer, 0 where none is wanted. What
-  // the design subtracts is marked by what it leaves: it is in the layer below.
+  // The diameter of a tip at a place of a layer, 0 where none is wanted. A
+  // subtracted leaf marks the surface that it leaves, so the layer below is
+  // asked, too.
   double tip_at(std::size_t i, Vec2 place) const {
     constexpr double kTouch = 0.02;  // [mm]
     for (const auto& [tip, solids] : marked_) {

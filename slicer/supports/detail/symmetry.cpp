@@ -82,8 +82,8 @@ class SymmetryFinder {
   }
 
  private:
-  // Vertices, and the middles of edges: those may be in place where these are
-  // not.
+  // Vertices, and the middles of edges, which can show an asymmetry that
+  // vertices miss.
   void add_places(const LayerSolids& solids, std::size_t i) {
     const plane::Contours& contours = solids.layer(i).contours;
     const std::size_t stride = (contours.points.size() + kPlaces - 1) / kPlaces;

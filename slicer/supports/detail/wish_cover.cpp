@@ -48,6 +48,7 @@ std::vector<std::size_t> WishCover::choose() {
   }
   leave_out_spare(chosen);
   join_pairs(chosen);
+  leave_out_spare(chosen);
   for (std::size_t& choice : chosen) choice = choices_[choice].candidate;
   return chosen;
 }
@@ -113,6 +114,7 @@ void WishCover::join_pairs(std::vector<std::size_t>& chosen) {
       const Choice& one = choices_[chosen[a]];
       const Choice& other = choices_[chosen[b]];
       const std::vector<std::uint32_t> both = only_held_by(one, other);
+      if (both.empty()) continue;  // they will be left out
       const auto better =
           std::ranges::find_if(choices_, [&](const Choice& choice) {
             return choice.contacts < one.contacts + other.contacts &&

@@ -37,8 +37,8 @@ TEST(SupportsCommand, WritesADesignThatNamesTheLinesItHolds) {
     EXPECT_TRUE(place.starts_with("table.scad:")) << place;
   }
   std::size_t lines = 0;
-  for (std::size_t at = text.find("\nsupport_of(["); at != std::string::npos;
-       at = text.find("\nsupport_of([", at + 1)) {
+  for (std::size_t at = text.find("\n  support_of(["); at != std::string::npos;
+       at = text.find("\n  support_of([", at + 1)) {
     ++lines;
   }
   EXPECT_EQ(supports["contacts"].size(), lines);
@@ -67,7 +67,7 @@ std::vector<double> places_of(const TemporaryFolder& folder,
   EXPECT_EQ(run(folder, options).status, 0);
   const json report = json::parse(read_file(folder.file("x.json")));
   std::vector<double> places;
-  if (!report.contains("supports")) return places;
+  if (!report["supports"].contains("contacts")) return places;
   for (const json& contact : report["supports"]["contacts"]) {
     places.push_back(contact["x"]);
   }
@@ -91,6 +91,27 @@ TEST(SupportLines, DecideWhatIsHeld) {
   EXPECT_TRUE(
       only(places_of(folder, {"--no-support-on", "table.scad:3"}), true));
   EXPECT_TRUE(places_of(folder, {"--no-support-on", "lib.scad:1"}).empty());
+  const json report = json::parse(read_file(folder.file("x.json")));
+  EXPECT_EQ(report["supports"]["count"], 0);
+  EXPECT_EQ(report["supports"]["unwanted"], 2);
+}
+
+TEST(SupportSizes, AreThoseOfTheMaterialWhereNoneAreGiven) {
+  const TemporaryFolder folder;
+  folder.write("table.scad", kTable);
+  folder.write("wax.json",
+               R"({"name": "wax", "density": 1, "support_tip_mm": 0.6})");
+  const auto tip_of = [&](const std::string& supports) {
+    const auto made =
+        run(folder, {"table.scad", supports, "--material", "wax.json", "-q",
+                     "-o", "x.slc", "--report", "x.json"});
+    EXPECT_EQ(made.status, 0) << made.errors;
+    const json report = json::parse(read_file(folder.file("x.json")));
+    return report["supports"]["tip_mm"].get<double>();
+  };
+  EXPECT_EQ(tip_of("--supports"), 0.6);
+  EXPECT_EQ(tip_of("--supports=raft"), 0.6);
+  EXPECT_EQ(tip_of("--supports=light"), 0.25);
 }
 
 TEST(SupportVariable, DecidesInTheDesign) {
@@ -113,15 +134,89 @@ TEST(SupportVariable, DecidesInTheDesign) {
   }
 }
 
-TEST(SupportVariable, IsWarnedOfWhereItIsNone) {
+TEST(SupportVariable, IsWarnedOfWhereItMeansNothing) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(10, $support = \"strong\");\n");
-  const auto result = run(folder, {"a.scad", "-o", "a.slc"});
+  // It is the design's own as long as nobody asks for supports.
+  EXPECT_EQ(run(folder, {"a.scad", "--strict", "-o", "a.slc"}).status, 0);
+  const auto result = run(folder, {"a.scad", "--supports", "-o", "a.slc"});
   EXPECT_EQ(result.status, 0);
   EXPECT_TRUE(has(result.errors,
-                  "a.scad:1:1: warning: $support is \"strong\"; expected "
-                  "\"none\", \"light\", \"medium\", \"heavy\" or a number from "
-                  "0.1 to 2"))
+                  "warning: $support is not \"none\", \"light\", \"medium\", "
+                  "\"heavy\" or a number from 0.1 to 2, at a.scad:1:1"))
+      << result.errors;
+}
+
+// Names of the design keep their meaning.
+TEST(SupportsCommand, LeavesTheDesignAsItIs) {
+  const TemporaryFolder folder;
+  folder.write("own.scad",
+               "support_tip = 5;\n"
+               "module support_rod(from, to, d1, d2) translate(from) "
+               "cube([4, 4, 8]);\n"
+               "support_rod([0, 0, 0], [0, 0, 1], 1, 1);\n"
+               "translate([10, 0, 6]) cube([6, 6, 1]);\n"
+               "translate([20, 0, 0]) cube(support_tip);\n");
+  const auto made = run(folder, {"own.scad", "--supports", "-q", "-o", "x.slc",
+                                 "--report", "x.json"});
+  EXPECT_EQ(made.status, 0) << made.errors;
+  const json report = json::parse(read_file(folder.file("x.json")));
+  EXPECT_NEAR(report["volume_mm3"].get<double>() -
+                  report["supports"]["volume_mm3"].get<double>(),
+              128 + 36 + 125, 1e-3);
+}
+
+TEST(SupportsCommand, JudgesTheWrittenDesignAsItsMaker) {
+  const TemporaryFolder folder;
+  folder.write("ball.scad", "sphere(5, $fn = 60);\n");
+  ASSERT_EQ(run(folder, {"supports", "ball.scad", "--supports=heavy", "-o",
+                         "held.scad"})
+                .status,
+            0);
+  EXPECT_EQ(run(folder, {"check", "held.scad"}).status, 0);
+  // It has them now.
+  const auto again = run(folder, {"supports", "held.scad", "-o", "twice.scad"});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_TRUE(has(again.errors, "The design has supports already"))
+      << again.errors;
+}
+
+TEST(SupportsCommand, FailsWhereTheDesignForbidsWhatItNeeds) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(10, $support = \"none\");\n");
+  const auto result = run(folder, {"supports", "a.scad", "-o", "b.scad"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors,
+                  "needs a support, but the design or an option forbids it"))
+      << result.errors;
+}
+
+TEST(SupportLines, AreRefusedWhereTheyMeanNothing) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(10);\n");
+  const auto errors_of = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"a.scad", "-o", "a.slc"});
+    return run(folder, options).errors;
+  };
+  EXPECT_TRUE(has(errors_of({"--supports", "--support-on", "a"}),
+                  "expected lines such as 12 or lib.scad:12, not 'a'"));
+  EXPECT_TRUE(has(errors_of({"--support-on", "1"}), "need --supports"));
+  EXPECT_TRUE(has(errors_of({"--supports", "--no-support-on", "9"}),
+                  "no solid comes from line a.scad:9"));
+  EXPECT_TRUE(has(errors_of({"--supports=light,heavy"}),
+                  "there are two sizes in 'light,heavy'"));
+  EXPECT_TRUE(has(errors_of({"--supports=thick"}),
+                  "expected light, medium, heavy or 0.1 to 2 (mm), and ,raft "
+                  "for a raft; got 'thick'"));
+}
+
+TEST(Supports, AreRefusedToWhatNoPrinterBuilds) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([1500, 20, 1]);\n");
+  const auto result = run(folder, {"a.scad", "--supports", "-o", "a.slc"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(
+      has(result.errors, "The design is 1500 x 20 mm, too wide for supports"))
       << result.errors;
 }
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slicer/slice/slice.h"
 #include "tests/support/design.h"
 
 namespace lamina::slicer {
@@ -84,6 +85,31 @@ TEST(SupportMeter, SeesNoContactInWhatStandsBesideThePart) {
       measured("cube(10);", "translate([12, 5, 0]) cylinder(d = 1, h = 12);");
   EXPECT_TRUE(found.contacts.empty());
   EXPECT_GT(found.volume, 0);
+}
+
+TEST(SupportMeter, SeesAPinInsideASupport) {
+  // The part's lowest layers are within the tip.
+  const SupportMeasures found = measured(
+      "cylinder(d = 0.2, h = 6, $fn = 24); translate([0, 0, 5]) "
+      "cylinder(d = 4, h = 1);",
+      "translate([0, 0, -3]) cylinder(d1 = 1, d2 = 0.4, h = 3.6, $fn = 24);");
+  ASSERT_EQ(found.contacts.size(), 1U);
+  EXPECT_NEAR(found.contacts[0].section_z, 0.05, 1e-9);
+  EXPECT_NEAR(found.contacts[0].area, polygon_area(0.1, 24), 1e-3);
+}
+
+// What a difference has cut belongs to the part.
+TEST(SupportMeter, KnowsNoSupportsWithinADifference) {
+  const Design design = Design::from_text(
+      "module support_of() cube(4); difference() { cube(10); support_of(); }");
+  Settings settings;
+  SliceReport report;
+  LayerDrain sink;
+  Diagnostics diagnostics;
+  report = slice(design.scene(), plan_layers(design.scene(), settings),
+                 settings, sink, diagnostics);
+  EXPECT_FALSE(report.supports.has_value());
+  EXPECT_NEAR(report.part_volume(), 1000 - 64, 1e-6);
 }
 
 }  // namespace
