@@ -47,29 +47,16 @@ std::string size_text(const SupportPlan& plan) {
 
 namespace {
 
-Support image_of(Support support, const detail::Isometry& symmetry) {
-  support.contact = detail::moved(symmetry, support.contact);
-  for (Vec3& place : support.path) place = detail::moved(symmetry, place);
-  return support;
-}
-
 // Of those that touch the part with their tips only.
 std::vector<Support> images_of(const std::vector<Support>& supports,
                                const detail::Isometry& symmetry,
                                const detail::SupportRouter& router) {
   std::vector<Support> images;
   for (const Support& support : supports) {
-    Support image = image_of(support, symmetry);
+    Support image = detail::image_of(support, symmetry);
     if (router.is_free(image)) images.push_back(std::move(image));
   }
   return images;
-}
-
-bool is_same(const Support& a, const Support& b) {
-  constexpr double kSame = 1e-3;  // [mm]
-  return std::ranges::equal(a.path, b.path, [](Vec3 one, Vec3 other) {
-    return glm::distance(one, other) < kSame;
-  });
 }
 
 // The support of a contact; and its images, where symmetries leave the contact
@@ -81,11 +68,12 @@ std::vector<Support> route(const detail::SupportRouter& router,
   if (!support) return {};
   std::vector<Support> all = {std::move(*support)};
   for (const detail::Isometry& symmetry : symmetries) {
-    Support image = image_of(all.front(), symmetry);
+    Support image = detail::image_of(all.front(), symmetry);
     const bool is_new =
         glm::distance(image.contact, all.front().contact) < contact.tip / 4 &&
-        std::ranges::none_of(
-            all, [&](const Support& other) { return is_same(image, other); });
+        std::ranges::none_of(all, [&](const Support& other) {
+          return detail::has_same_way(image, other);
+        });
     if (is_new && router.is_free(image)) all.push_back(std::move(image));
   }
   return all;

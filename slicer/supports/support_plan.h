@@ -57,6 +57,9 @@ struct Support {
   std::vector<Vec3> path;
   SupportEnd end = SupportEnd::kFoot;
   std::string holds;  // the source line of what it holds; empty if not known
+
+  // The upper end of the last part of the way.
+  Vec3 pillar_top() const { return path[path.size() - 2]; }
 };
 
 // A rod between two pillars.

@@ -308,12 +308,14 @@ class Finder {
     std::ranges::stable_sort(wishes, {}, rank);
     // What images hold too little of is held by contacts that have none.
     for (const auto symmetries : {symmetries_, symmetries_.first(1)}) {
-      WishCover cover(wishes, reach_of_tip(sizes_.tip));
+      WishCover cover(wishes, reach_of_tip(greatest_tip()));
       const std::size_t step =
           1 + wishes.size() * symmetries.size() / kMostCandidates;
       for (std::size_t k = 0; k < wishes.size(); k += step) {
-        if (tip_at(i, wishes[k].place) == 0) continue;
-        cover.add(k, orbit_of(centered(i, wishes[k], symmetries), symmetries));
+        const double tip = tip_at(i, wishes[k].place);
+        if (tip == 0) continue;
+        cover.add(k, orbit_of(centered(i, wishes[k], symmetries), symmetries),
+                  reach_of_tip(tip));
       }
       for (const std::size_t k : cover.choose()) {
         add_contacts(i, wishes[k], is_island || wishes[k].out > least, region,
@@ -324,6 +326,12 @@ class Finder {
     if (!wishes.empty() && (is_island || wishes.front().out > least)) {
       unwanted_.emplace_back(wishes.front().place, height);
     }
+  }
+
+  double greatest_tip() const {
+    double tip = sizes_.tip;
+    for (const MarkedPlaces& one : marked_) tip = std::max(tip, one.tip);
+    return tip;
   }
 
   // How far places may be from a contact so that between them all is held, too.

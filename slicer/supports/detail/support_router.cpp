@@ -20,9 +20,20 @@ constexpr double kSidestep = 0.5;
 // Shorter heads are blunt [mm].
 constexpr double kShortestHead = 0.75;
 
-Vec2 flat(Vec3 place) { return {place.x, place.y}; }
-
 }  // namespace
+
+Support image_of(Support support, const Isometry& symmetry) {
+  support.contact = moved(symmetry, support.contact);
+  for (Vec3& place : support.path) place = moved(symmetry, place);
+  return support;
+}
+
+bool has_same_way(const Support& a, const Support& b) {
+  constexpr double kSame = 1e-3;  // [mm]
+  return std::ranges::equal(a.path, b.path, [](Vec3 one, Vec3 other) {
+    return glm::distance(one, other) < kSame;
+  });
+}
 
 SupportRouter::SupportRouter(const LayerSolids& solids,
                              const SupportSizes& sizes, double bed)
@@ -55,14 +66,14 @@ bool SupportRouter::is_free(const Rod& rod) const {
       if (from_tip < tip) continue;
       clearance = std::min(clearance, (from_tip - tip) / 2);
     }
-    if (!solids_.is_free(i, flat(place), radius + clearance)) return false;
+    if (!solids_.is_free(i, Vec2(place), radius + clearance)) return false;
   }
   return true;
 }
 
 bool SupportRouter::is_free_below(Vec3 place) const {
   return is_free(
-      {place, Vec3(flat(place), bed_), sizes_.pillar, sizes_.pillar});
+      {place, Vec3(Vec2(place), bed_), sizes_.pillar, sizes_.pillar});
 }
 
 bool SupportRouter::is_free(const Support& support) const {
@@ -92,7 +103,7 @@ std::optional<Support> SupportRouter::route(const Contact& contact) const {
   for (int k = 0; k < kSides; ++k) all[static_cast<std::size_t>(k)] = side(k);
   // Those first to which the part's surface faces.
   std::ranges::stable_sort(all, std::greater<>(), [&](Vec2 side) {
-    return std::round(1e6 * glm::dot(side, flat(contact.away)));
+    return std::round(1e6 * glm::dot(side, Vec2(contact.away)));
   });
   if (auto support = route(contact, all, false)) return support;
   return route(contact, all, true);
@@ -151,7 +162,7 @@ double SupportRouter::depth_of(const Contact& contact, Vec3 away) const {
     if (length >= 2 * wanted) return wanted;
     if (is_above ||
         (length > 0 &&
-         solids_.depth(i, flat(contact.place - away * length)) <= 0)) {
+         solids_.depth(i, Vec2(contact.place - away * length)) <= 0)) {
       return length / 2;
     }
   }
@@ -163,20 +174,20 @@ bool SupportRouter::add_way_to_bed(Support& support,
   const double lowest = bed_ + sizes_.foot_height;
   if (from.z <= lowest) return false;
   if (is_free_below(from)) {
-    support.path.emplace_back(flat(from), lowest);
+    support.path.emplace_back(Vec2(from), lowest);
     return true;
   }
   for (double distance = kSidestep; distance <= kFarthest;
        distance += kSidestep) {
     if (from.z - distance <= lowest) return false;
     for (const Vec2 side : sides) {
-      const Vec3 bend(flat(from) + distance * side, from.z - distance);
+      const Vec3 bend(Vec2(from) + distance * side, from.z - distance);
       if (!is_free_below(bend) ||
           !is_free({from, bend, sizes_.pillar, sizes_.pillar})) {
         continue;
       }
       support.path.push_back(bend);
-      support.path.emplace_back(flat(bend), lowest);
+      support.path.emplace_back(Vec2(bend), lowest);
       return true;
     }
   }
@@ -187,12 +198,12 @@ bool SupportRouter::add_way_to_bed(Support& support,
 bool SupportRouter::add_way_to_part(Support& support) const {
   const Vec3 from = support.path.back();
   for (std::size_t i = solids_.layer_above(from.z); i-- > 0;) {
-    if (solids_.depth(i, flat(from)) < support.tip / 2) continue;
+    if (solids_.depth(i, Vec2(from)) < support.tip / 2) continue;
     const double top = solids_.layer(i).top;
     const double length = std::min(sizes_.head, (from.z - top) / 2);
     if (length < kShortestHead / 2) return false;
-    const Vec3 neck(flat(from), top + length);
-    const Vec3 tip(flat(from), top);
+    const Vec3 neck(Vec2(from), top + length);
+    const Vec3 tip(Vec2(from), top);
     if (!is_free({from, neck, sizes_.pillar, sizes_.pillar}) ||
         !is_free({neck, tip, sizes_.pillar, support.tip})) {
       return false;
@@ -221,8 +232,8 @@ std::vector<Brace> SupportRouter::find_braces(
   std::vector<Pillar> pillars;
   for (const Support& support : supports) {
     if (support.end != SupportEnd::kFoot) continue;
-    const Vec3 top = support.path[support.path.size() - 2];
-    pillars.push_back({flat(top), top.z - bed_});
+    const Vec3 top = support.pillar_top();
+    pillars.push_back({Vec2(top), top.z - bed_});
   }
   std::set<std::pair<std::size_t, std::size_t>> neighbours;
   for (std::size_t i = 0; i < pillars.size(); ++i) {

@@ -11,6 +11,12 @@
 
 namespace lamina::slicer::detail {
 
+// The support where a symmetry puts it.
+Support image_of(Support support, const Isometry& symmetry);
+
+// Whether two supports have the same way, but for rounding.
+bool has_same_way(const Support& a, const Support& b);
+
 class SupportRouter {
  public:
   // bed  its height [mm]; both others outlive the router

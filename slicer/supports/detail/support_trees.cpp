@@ -20,8 +20,6 @@ constexpr std::size_t kMostBranches = 3;
 // What saves less than this is not worth a joint [mm³].
 constexpr double kLeastSaving = 3;
 
-Vec2 flat(Vec3 place) { return {place.x, place.y}; }
-
 class TreeMaker {
  public:
   TreeMaker(std::span<const Isometry> symmetries, const SupportRouter& router,
@@ -66,16 +64,12 @@ class TreeMaker {
   // A branch, and the trunk that it leans to.
   using Merge = std::pair<std::size_t, std::size_t>;
 
-  // The upper end of the pillar.
-  Vec3 top_of(std::size_t i) const {
-    const std::vector<Vec3>& path = supports_[i].path;
-    return path[path.size() - 2];
-  }
+  Vec3 top_of(std::size_t i) const { return supports_[i].pillar_top(); }
 
   Vec3 joint_of(const Merge& merge) const {
     const Vec3 top = top_of(merge.first);
-    const Vec2 trunk = flat(top_of(merge.second));
-    return {trunk, top.z - glm::distance(flat(top), trunk)};
+    const Vec2 trunk = Vec2(top_of(merge.second));
+    return {trunk, top.z - glm::distance(Vec2(top), trunk)};
   }
 
   // Of a merge that is possible [mm³]; else 0.
@@ -86,7 +80,7 @@ class TreeMaker {
       return 0;
     }
     const Vec3 top = top_of(branch);
-    const double distance = glm::distance(flat(top), flat(top_of(trunk)));
+    const double distance = glm::distance(Vec2(top), Vec2(top_of(trunk)));
     const double joint = top.z - distance;
     if (distance > kFarthest || joint > top_of(trunk).z ||
         joint < bed_ + sizes_.foot_height + sizes_.pillar) {
@@ -108,13 +102,9 @@ class TreeMaker {
 
   std::optional<std::size_t> find_image(const Support& support,
                                         const Isometry& symmetry) const {
-    constexpr double kSame = 1e-3;  // [mm]
+    const Support image = image_of(support, symmetry);
     for (std::size_t k = 0; k < supports_.size(); ++k) {
-      const bool is_image = std::ranges::equal(
-          support.path, supports_[k].path, [&](Vec3 place, Vec3 other) {
-            return glm::distance(moved(symmetry, place), other) < kSame;
-          });
-      if (is_image) return k;
+      if (has_same_way(image, supports_[k])) return k;
     }
     return std::nullopt;
   }

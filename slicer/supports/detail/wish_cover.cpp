@@ -8,18 +8,19 @@
 
 namespace lamina::slicer::detail {
 
-WishCover::WishCover(const std::vector<Wish>& wishes, double radius)
-    : wishes_(wishes), radius_(radius), holders_(wishes.size()) {
+WishCover::WishCover(const std::vector<Wish>& wishes, double greatest)
+    : wishes_(wishes), cell_(greatest), holders_(wishes.size()) {
   for (std::uint32_t k = 0; k < wishes.size(); ++k) {
     cells_[cell_of(wishes[k].place)].push_back(k);
   }
 }
 
-void WishCover::add(std::size_t candidate, const std::vector<Vec2>& places) {
+void WishCover::add(std::size_t candidate, const std::vector<Vec2>& places,
+                    double radius) {
   Choice choice = {candidate, 0, {}};
   for (const Vec2 place : places) {
     const std::size_t before = choice.held.size();
-    add_around(place, choice.held);
+    add_around(place, radius, choice.held);
     if (choice.held.size() > before) ++choice.contacts;
   }
   if (choice.contacts == 0) return;
@@ -54,11 +55,12 @@ std::vector<std::size_t> WishCover::choose() {
 }
 
 WishCover::Cell WishCover::cell_of(Vec2 place) const {
-  return {static_cast<int>(std::floor(place.x / radius_)),
-          static_cast<int>(std::floor(place.y / radius_))};
+  return {static_cast<int>(std::floor(place.x / cell_)),
+          static_cast<int>(std::floor(place.y / cell_))};
 }
 
-void WishCover::add_around(Vec2 place, std::vector<std::uint32_t>& held) const {
+void WishCover::add_around(Vec2 place, double radius,
+                           std::vector<std::uint32_t>& held) const {
   const Cell cell = cell_of(place);
   for (int x = cell.first - 1; x <= cell.first + 1; ++x) {
     for (int y = cell.second - 1; y <= cell.second + 1; ++y) {
@@ -66,7 +68,7 @@ void WishCover::add_around(Vec2 place, std::vector<std::uint32_t>& held) const {
       if (found == cells_.end()) continue;
       std::ranges::copy_if(
           found->second, std::back_inserter(held), [&](std::uint32_t k) {
-            return glm::distance(wishes_[k].place, place) <= radius_;
+            return glm::distance(wishes_[k].place, place) <= radius;
           });
     }
   }

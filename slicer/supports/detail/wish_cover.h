@@ -27,14 +27,16 @@ struct Wish {
 
 class WishCover {
  public:
-  // wishes  the first is preferred among equal ones; must outlive it
-  // radius  within which a contact holds them [mm]
-  WishCover(const std::vector<Wish>& wishes, double radius);
+  // wishes   the first is preferred among equal ones; must outlive it
+  // greatest of all radii [mm]
+  WishCover(const std::vector<Wish>& wishes, double greatest);
 
   // Adds contacts that can be chosen together, at these places.
   //
   // candidate  the caller's name for them
-  void add(std::size_t candidate, const std::vector<Vec2>& places);
+  // radius     within which they hold wishes [mm]
+  void add(std::size_t candidate, const std::vector<Vec2>& places,
+           double radius);
 
   // Returns what was chosen, by the caller's names.
   std::vector<std::size_t> choose();
@@ -56,7 +58,8 @@ class WishCover {
   using Cell = std::pair<int, int>;
 
   Cell cell_of(Vec2 place) const;
-  void add_around(Vec2 place, std::vector<std::uint32_t>& held) const;
+  void add_around(Vec2 place, double radius,
+                  std::vector<std::uint32_t>& held) const;
   double worth_of(const Choice& choice) const;
   void leave_out_spare(std::vector<std::size_t>& chosen);
   void join_pairs(std::vector<std::size_t>& chosen);
@@ -65,7 +68,7 @@ class WishCover {
   void count(const Choice& choice, std::int32_t change);
 
   const std::vector<Wish>& wishes_;
-  const double radius_;
+  const double cell_;                  // its width [mm]
   std::vector<std::int32_t> holders_;  // of each wish: choices so far
   std::map<Cell, std::vector<std::uint32_t>> cells_;
   std::vector<Choice> choices_;

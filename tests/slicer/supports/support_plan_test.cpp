@@ -381,6 +381,10 @@ TEST(Supports, AreWhereTheDesignWantsThem) {
     EXPECT_GT(support.contact.x, 1.2);
     EXPECT_EQ(support.tip, support.contact.x > 19.98 ? 0.5 : 0.3);
   }
+  // A light tip holds less than those beside it.
+  const std::vector<MarkedSolid> light = {
+      marked(0.15, "translate([0, 0, 8]) cube([15, 6, 1]);")};
+  EXPECT_TRUE(plan_supports(layers, {.tip = 0.4}, light).unwanted.empty());
   // Where nothing near may hold it, that is said.
   const std::vector<MarkedSolid> none = {marked(0, shelf)};
   const SupportPlan without = plan_supports(layers, {}, none);
