@@ -114,7 +114,7 @@ class Finder {
       if (!is_held[outer]) {
         if (is_outer) take_island(i, loop);
       } else {
-        take_ledges(i, contours.loop(loop), wishes[outer]);
+        take_ledges(i, contours.loop(loop), outer, wishes[outer]);
       }
     }
     std::vector<bool> is_wide(contours.loop_count());
@@ -232,10 +232,15 @@ class Finder {
   }
 
   void take_ledges(std::size_t i, std::span<const Vec2> loop,
-                   std::vector<Wish>& wishes) const {
+                   std::uint32_t region, std::vector<Wish>& wishes) const {
+    const double height = solids_.layer(i).bottom;
     visit_outline(loop, [&](Vec2 place) {
       if (!solids_.is_free(i - 1, place, reach(i))) return;
-      wishes.push_back({inwards(i, place), -solids_.depth(i - 1, place)});
+      Wish wish = {place, -solids_.depth(i - 1, place)};
+      // Most are; the way inwards costs more than to ask.
+      if (is_held(wish, height, near_[region])) return;
+      wish.place = inwards(i, place);
+      wishes.push_back(wish);
     });
   }
 
