@@ -44,10 +44,11 @@ std::string row_of(const Outcome& outcome) {
   return row.substr(0, row.find_last_not_of(' ') + 1);
 }
 
+// New columns come last: scripts count them.
 constexpr std::string_view kCsvHeader =
-    "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,supports_mm3,contacts,"
-    "contact_mm2,grams,price,metal_grams,metal_price,print_seconds,seconds,"
-    "warnings,findings,error\r\n";
+    "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,price,"
+    "metal_grams,metal_price,print_seconds,seconds,warnings,findings,error,"
+    "supports_mm3,contacts,contact_mm2\r\n";
 
 // Empty where it is not known.
 std::string figure(double value) {
@@ -55,9 +56,9 @@ std::string figure(double value) {
 }
 
 // Volume, contacts, and their area.
-std::string supports_of(const compiler::Report& report) {
-  const auto& supports = report.slice.supports;
-  return supports
+std::string supports_of(const Outcome& outcome) {
+  const auto& supports = outcome.report.slice.supports;
+  return outcome.is_done() && supports
              ? fmt::format("{},{},{}", supports->volume,
                            supports->contacts.size(), supports->contact_area())
              : ",,";
@@ -65,26 +66,25 @@ std::string supports_of(const compiler::Report& report) {
 
 std::string csv_of(const Piece& piece, const Outcome& outcome) {
   const std::string line = piece.line > 0 ? fmt::format("{}", piece.line) : "";
-  std::string figures = ",,,,,,,,,,,,,,,";
+  std::string figures = ",,,,,,,,,,,,";
   if (outcome.is_done()) {
     const compiler::Report& report = outcome.report;
     const slicer::PrintEstimate& estimate = report.estimate;
     const Vec3 size = report.slice.box.size();
     figures = fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{}", report.slice.layers,
+        "{},{},{},{},{},{},{},{},{},{},{}", report.slice.layers,
         report.slice.box.is_empty()
             ? ",,"
             : fmt::format("{:.6g},{:.6g},{:.6g}", size.x, size.y, size.z),
-        report.slice.volume, supports_of(report), figure(estimate.grams),
-        figure(estimate.price), figure(estimate.metal_grams),
-        figure(estimate.metal_price), figure(estimate.seconds),
-        report.wall_seconds, report.warnings,
+        report.slice.volume, figure(estimate.grams), figure(estimate.price),
+        figure(estimate.metal_grams), figure(estimate.metal_price),
+        figure(estimate.seconds), report.wall_seconds, report.warnings,
         csv_words(report.slice.print ? finding_counts(*report.slice.print)
                                      : ""));
   }
-  return fmt::format("{},{},{},{},{}\r\n", line, csv_words(piece.name),
+  return fmt::format("{},{},{},{},{},{}\r\n", line, csv_words(piece.name),
                      csv_words(piece.request.output.path), figures,
-                     csv_words(outcome.error));
+                     csv_words(outcome.error), supports_of(outcome));
 }
 
 std::string json_of(const Piece& piece, const Outcome& outcome) {

@@ -458,6 +458,8 @@ TEST(Batch, ReportsEveryPieceAsATable) {
   EXPECT_EQ(rows[1].cells.at(7), "8");   // volume
   EXPECT_EQ(rows[1].cells.at(14), "0");  // warnings
   EXPECT_TRUE(has(rows[2].cells.at(16), "large, too"));
+  EXPECT_EQ(rows[0].cells.at(17), "supports_mm3");
+  EXPECT_EQ(rows[1].cells.size(), rows[0].cells.size());
 }
 
 TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {
