@@ -43,6 +43,55 @@ plane::Contours region_of(const plane::Contours& contours,
   return region;
 }
 
+// The direction in which a region is longest, by its second moments: it turns
+// with the region. Of a region as broad as it is long, that of x.
+Vec2 long_axis(const plane::Contours& region) {
+  constexpr double kRound = 0.02;  // share by which moments must differ
+  double area = 0;
+  Vec2 first(0);
+  Vec3 second(0);  // xx, xy, yy
+  const Vec2 origin = region.points.front();
+  for (std::size_t l = 0; l < region.loop_count(); ++l) {
+    const auto loop = region.loop(l);
+    Vec2 a = loop.back() - origin;
+    for (const Vec2& point : loop) {
+      const Vec2 b = point - origin;
+      const double cross = a.x * b.y - a.y * b.x;
+      area += cross / 2;
+      first += cross / 6 * (a + b);
+      second += cross / 24 *
+                Vec3(2 * (a.x * a.x + a.x * b.x + b.x * b.x),
+                     2 * a.x * a.y + a.x * b.y + b.x * a.y + 2 * b.x * b.y,
+                     2 * (a.y * a.y + a.y * b.y + b.y * b.y));
+      a = b;
+    }
+  }
+  const Vec2 middle = first / area;
+  const double xx = second.x - middle.x * first.x;
+  const double xy = second.y - middle.x * first.y;
+  const double yy = second.z - middle.y * first.y;
+  if (!(std::hypot(xx - yy, 2 * xy) > kRound * (xx + yy))) return {1, 0};
+  const double angle = std::atan2(2 * xy, xx - yy) / 2;
+  // Rounding must not turn what lies along an axis.
+  constexpr double kSteps = 1e6;
+  const double rounded = std::round(angle * kSteps) / kSteps;
+  return {std::cos(rounded), std::sin(rounded)};
+}
+
+// The box of a region in the frame of an axis.
+Box2 box_along(const plane::Contours& region, Vec2 axis) {
+  Box2 box;
+  for (const Vec2& point : region.points) {
+    box.add(Vec2(glm::dot(point, axis), point.y * axis.x - point.x * axis.y));
+  }
+  return box;
+}
+
+// From the frame of an axis.
+Vec2 from_frame(Vec2 place, Vec2 axis) {
+  return place.x * axis + place.y * Vec2(-axis.y, axis.x);
+}
+
 // Points along closed loops, no farther from each other than kStep.
 template <typename Visit>
 void visit_outline(std::span<const Vec2> loop, const Visit& visit) {
@@ -176,33 +225,16 @@ class Finder {
   void add_ends(std::size_t i, const plane::Contours& region,
                 std::vector<Wish>& wishes) const {
     constexpr double kShortest = 1.66 / 0.4;
-    Vec2 middle(0);
-    for (const Wish& wish : wishes) middle += wish.place;
-    middle /= static_cast<double>(wishes.size());
-    double xx = 0;
-    double xy = 0;
-    double yy = 0;
-    for (const Wish& wish : wishes) {
-      const Vec2 arm = wish.place - middle;
-      xx += arm.x * arm.x;
-      xy += arm.x * arm.y;
-      yy += arm.y * arm.y;
-    }
-    const double angle = std::atan2(2 * xy, xx - yy) / 2;
-    const Vec2 along(std::cos(angle), std::sin(angle));
-    Box2 box;  // along the bar and across it
-    for (const Vec2& point : region.points) {
-      const Vec2 arm = point - middle;
-      box.add(Vec2(glm::dot(arm, along), arm.y * along.x - arm.x * along.y));
-    }
-    const double length = box.size().x - box.size().y;
-    if (length < kShortest * sizes_.tip ||
-        box.size().x > 2 * reach_of_tip(sizes_.tip)) {
+    const Vec2 axis = long_axis(region);
+    const Box2 box = box_along(region, axis);
+    const Vec2 size = box.size();
+    if (size.x - size.y < kShortest * sizes_.tip ||
+        size.x > 2 * reach_of_tip(sizes_.tip)) {
       return;
     }
     for (const double quarter : {-0.25, 0.25}) {
       const Vec2 wanted =
-          middle + along * (box.center().x + quarter * box.size().x);
+          from_frame(box.center() + Vec2(quarter * size.x, 0), axis);
       Wish end = *std::ranges::min_element(wishes, {}, [&](const Wish& wish) {
         return std::round(1e3 * glm::distance(wish.place, wanted));
       });
@@ -256,19 +288,20 @@ class Finder {
     });
   }
 
-  // Places of a region on a grid that is symmetric about its middle.
+  // Places of a region on a grid along its own axes, symmetric about its
+  // middle.
   template <typename Visit>
   static void visit_grid(const plane::Contours& region, const Visit& visit) {
     const plane::EdgeTree edges(region);
-    Box2 box;
-    box.add(region.loop(0));
-    const Vec2 middle = box.center();
-    const Vec2 half = (box.high - box.low) / 2.0;
+    const Vec2 axis = long_axis(region);
+    const Box2 box = box_along(region, axis);
+    const Vec2 half = box.size() / 2.0;
     const auto columns = static_cast<int>(half.x / kGrid);
     const auto rows = static_cast<int>(half.y / kGrid);
     for (int column = -columns; column <= columns; ++column) {
       for (int row = -rows; row <= rows; ++row) {
-        const Vec2 place = middle + Vec2(column, row) * kGrid;
+        const Vec2 place =
+            from_frame(box.center() + Vec2(column, row) * kGrid, axis);
         if (edges.winding_number(place) > 0) visit(place);
       }
     }
