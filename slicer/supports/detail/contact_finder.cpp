@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -424,9 +425,13 @@ class Finder {
     for (std::size_t k = 0; k < symmetries.size(); ++k) {
       const Isometry& symmetry = symmetries[k];
       const Vec2 place = k == 0 ? wish.place : moved(symmetry, wish.place);
-      if (has_contact(Vec3(place, height))) continue;
       const std::uint32_t around = k == 0 ? region : region_at(i, place);
       if (around >= near_.size()) continue;
+      // Where parts touch, a tip holds both.
+      if (const auto known = find_contact(Vec3(place, height))) {
+        near_[around].push_back(*known);
+        continue;
+      }
       near_[around].push_back(static_cast<std::uint32_t>(contacts_.size()));
       // Where the first one is there already, each has a way of its own.
       has_first = has_first || k == 0;
@@ -438,11 +443,14 @@ class Finder {
     }
   }
 
-  // Whether there is one at this place, or next to it.
-  bool has_contact(Vec3 place) const {
-    return std::ranges::any_of(contacts_, [&](const Contact& contact) {
-      return glm::distance(contact.place, place) < sizes_.tip / 4;
-    });
+  // The one at this place, or next to it, if any.
+  std::optional<std::uint32_t> find_contact(Vec3 place) const {
+    const auto found =
+        std::ranges::find_if(contacts_, [&](const Contact& contact) {
+          return glm::distance(contact.place, place) < sizes_.tip / 4;
+        });
+    if (found == contacts_.end()) return std::nullopt;
+    return static_cast<std::uint32_t>(found - contacts_.begin());
   }
 
   static std::vector<Isometry> symmetries_that_fix(
