@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <optional>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +14,7 @@
 
 #include "base/check.h"
 #include "base/text.h"
+#include "plane/loop_index.h"
 #include "slicer/check/print/layer_graph.h"
 #include "slicer/check/thin/thin_features.h"
 #include "slicer/check/thin/thin_finder.h"
@@ -100,31 +99,6 @@ std::string base64(std::string_view bytes) {
   }
   return text;
 }
-
-// Finds loops by their points.
-class LoopIndex {
- public:
-  explicit LoopIndex(const plane::Contours& contours) : contours_(contours) {
-    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-      const Vec2 first = contours.loop(i).front();
-      by_first_point_[{first.x, first.y}] = i;
-    }
-  }
-
-  // The loop with these points; no value where there is none.
-  std::optional<std::size_t> find(std::span<const Vec2> loop) const {
-    const auto found = by_first_point_.find({loop.front().x, loop.front().y});
-    if (found == by_first_point_.end() ||
-        !std::ranges::equal(contours_.loop(found->second), loop)) {
-      return std::nullopt;
-    }
-    return found->second;
-  }
-
- private:
-  const plane::Contours& contours_;
-  std::map<std::pair<double, double>, std::size_t> by_first_point_;
-};
 
 // Leaves out digits that the page does not show.
 double rounded(double value, double step) {
@@ -270,16 +244,25 @@ class PageMaker {
     return step;
   }
 
+  // What the page shows of a layer below its picture.
+  static Json figures_of(const plane::Contours& contours,
+                         const LayerMeasures& measures) {
+    return {measures.loops, measures.holes, measures.vertices,
+            rounded(measures.area, 1e-6),
+            rounded(total_perimeter(contours), 1e-6)};
+  }
+
   Json describe() const {
     Json rows = Json::array();
     double volume = 0;
     for (const Layer& layer : layers_) {
       const LayerMeasures measures = measure(layer.contours);
       volume += measures.area * (layer.top - layer.bottom);
-      rows.push_back({layer.section_z, layer.bottom, layer.top, measures.loops,
-                      measures.holes, measures.vertices,
-                      rounded(measures.area, 1e-6),
-                      rounded(total_perimeter(layer.contours), 1e-6)});
+      Json& row =
+          rows.emplace_back(Json{layer.section_z, layer.bottom, layer.top});
+      for (Json& figure : figures_of(layer.contours, measures)) {
+        row.push_back(std::move(figure));
+      }
     }
     return {{"layers", std::move(rows)},
             {"volume", volume},
@@ -296,9 +279,7 @@ class PageMaker {
     for (const Layer& layer : layers_) {
       const LayerMeasures measures = measure(layer.part);
       volume += measures.area * (layer.top - layer.bottom);
-      rows.push_back({measures.loops, measures.holes, measures.vertices,
-                      rounded(measures.area, 1e-6),
-                      rounded(total_perimeter(layer.part), 1e-6)});
+      rows.push_back(figures_of(layer.part, measures));
     }
     return {{"text", options_.supports},
             {"partLayers", std::move(rows)},
@@ -319,8 +300,8 @@ class PageMaker {
   void add_part_and_supports(const Layer& layer) {
     const std::array<const plane::Contours*, 2> own = {&layer.part,
                                                        &layer.supports};
-    const std::array<LoopIndex, 2> loops = {LoopIndex(layer.part),
-                                            LoopIndex(layer.supports)};
+    const std::array<plane::LoopIndex, 2> loops = {
+        plane::LoopIndex(layer.part), plane::LoopIndex(layer.supports)};
     std::array<std::vector<bool>, 2> is_known = {
         std::vector<bool>(layer.part.loop_count()),
         std::vector<bool>(layer.supports.loop_count())};

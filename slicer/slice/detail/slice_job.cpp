@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "plane/loop_index.h"
 #include "slicer/check/print/layer_overlay.h"
 #include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/compensate.h"
@@ -50,14 +51,11 @@ struct Block {
 bool take_out(const plane::Contours& contours, const plane::Contours& loops,
               plane::Contours& rest) {
   rest.clear();
+  const plane::LoopIndex among(loops);
   std::size_t found = 0;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
-    bool is_among = false;
-    for (std::size_t k = 0; k < loops.loop_count() && !is_among; ++k) {
-      is_among = std::ranges::equal(loop, loops.loop(k));
-    }
-    if (is_among) {
+    if (among.find(loop)) {
       ++found;
     } else {
       rest.add_loop(loop);
