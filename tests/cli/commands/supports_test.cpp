@@ -20,6 +20,16 @@ using support::TemporaryFolder;
 const char* const kTable =
     "translate([0, 0, 8])\n  cube([14, 14, 2]);\ncube([3, 3, 9]);\n";
 
+// Slices a design and returns the run's report.
+json report_of(const TemporaryFolder& folder,
+               std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(),
+                   {"-q", "-o", "x.slc", "--report", "x.json"});
+  const auto made = run(folder, arguments);
+  EXPECT_EQ(made.status, 0) << made.errors;
+  return json::parse(read_file(folder.file("x.json")));
+}
+
 TEST(SupportsCommand, WritesADesignThatNamesTheLinesItHolds) {
   const TemporaryFolder folder;
   folder.write("table.scad", kTable);
@@ -62,10 +72,8 @@ TEST(SupportsCommand, MakesTheLayersOfTheOption) {
 
 std::vector<double> places_of(const TemporaryFolder& folder,
                               std::vector<std::string> options) {
-  options.insert(options.begin(), {"table.scad", "--supports", "-q", "-o",
-                                   "x.slc", "--report", "x.json"});
-  EXPECT_EQ(run(folder, options).status, 0);
-  const json report = json::parse(read_file(folder.file("x.json")));
+  options.insert(options.begin(), {"table.scad", "--supports"});
+  const json report = report_of(folder, options);
   std::vector<double> places;
   if (!report["supports"].contains("contacts")) return places;
   for (const json& contact : report["supports"]["contacts"]) {
@@ -102,11 +110,8 @@ TEST(SupportSizes, AreThoseOfTheMaterialWhereNoneAreGiven) {
   folder.write("wax.json",
                R"({"name": "wax", "density": 1, "support_tip_mm": 0.6})");
   const auto tip_of = [&](const std::string& supports) {
-    const auto made =
-        run(folder, {"table.scad", supports, "--material", "wax.json", "-q",
-                     "-o", "x.slc", "--report", "x.json"});
-    EXPECT_EQ(made.status, 0) << made.errors;
-    const json report = json::parse(read_file(folder.file("x.json")));
+    const json report =
+        report_of(folder, {"table.scad", supports, "--material", "wax.json"});
     return report["supports"]["tip_mm"].get<double>();
   };
   EXPECT_EQ(tip_of("--supports"), 0.6);
@@ -157,10 +162,7 @@ TEST(SupportsCommand, LeavesTheDesignAsItIs) {
                "support_rod([0, 0, 0], [0, 0, 1], 1, 1);\n"
                "translate([10, 0, 6]) cube([6, 6, 1]);\n"
                "translate([20, 0, 0]) cube(support_tip);\n");
-  const auto made = run(folder, {"own.scad", "--supports", "-q", "-o", "x.slc",
-                                 "--report", "x.json"});
-  EXPECT_EQ(made.status, 0) << made.errors;
-  const json report = json::parse(read_file(folder.file("x.json")));
+  const json report = report_of(folder, {"own.scad", "--supports"});
   EXPECT_NEAR(report["volume_mm3"].get<double>() -
                   report["supports"]["volume_mm3"].get<double>(),
               128 + 36 + 125, 1e-3);
