@@ -54,9 +54,9 @@ void LayerOutput::finish(Diagnostics& diagnostics, Report& report) {
   writer_->finish(diagnostics);
   if (deviation_) deviation_->rounding = writer_->greatest_rounding();
   report.deviation = deviation_;
-  report.estimate =
-      slicer::estimate_print(machine_, layer_thickness_, report.slice.layers,
-                             report.slice.volume, report.slice.part_volume());
+  report.estimate = slicer::estimate_print(
+      machine_, layer_thickness_, report.slice.layers, report.slice.volume,
+      slicer::part_volume(report.slice.volume, report.slice.supports));
   report.snapped_layers = writer_->snapped_layers();
   writer_->commit();
   report.output_bytes = writer_->size();

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "compiler/compile.h"
+#include "compiler/machine.h"
 #include "compiler/source_lines.h"
 #include "csg/support_tip.h"
 #include "slicer/check/thin/thin_finder.h"
@@ -42,6 +43,17 @@ Affine inverse_of(const Affine& turn) {
           Vec3(turn[0].z, turn[1].z, turn[2].z), Vec3(0)};
 }
 
+// A tip that the request does not give is that of the material.
+slicer::SupportSizes support_sizes(const Request& request,
+                                   const Machine& machine) {
+  slicer::SupportSizes sizes = *request.supports;
+  if (sizes.tip == 0 && machine.material) {
+    sizes.tip = machine.material->support_tip;
+  }
+  if (sizes.tip == 0) sizes.tip = slicer::SupportSizes().tip;
+  return sizes;
+}
+
 std::vector<slicer::Layer> slice_all(const csg::Scene& scene,
                                      const slicer::Settings& settings) {
   slicer::LayerList list;
@@ -49,6 +61,12 @@ std::vector<slicer::Layer> slice_all(const csg::Scene& scene,
   slicer::slice(scene, slicer::plan_layers(scene, settings), settings, list,
                 unshown);
   return std::move(list.layers);
+}
+
+std::vector<double> heights_of(const std::vector<slicer::Layer>& layers) {
+  std::vector<double> heights;
+  for (const slicer::Layer& layer : layers) heights.push_back(layer.section_z);
+  return heights;
 }
 
 // "ring.scad:12" for "12", which means the design itself.
@@ -100,9 +118,7 @@ std::vector<slicer::MarkedSolid> marked_solids(
     if (tip >= 0) tips.insert(tip);
   }
   slicer::Settings settings;
-  for (const slicer::Layer& layer : layers) {
-    settings.heights.push_back(layer.section_z);
-  }
+  settings.heights = heights_of(layers);
   std::vector<slicer::MarkedSolid> marked;
   for (const double tip : tips) {
     const auto leaves = slicer::leaves_of(
@@ -154,8 +170,7 @@ void warn_of_marks(const csg::Scene& scene, const SupportLines& lines,
 void name_lines(const csg::Scene& scene,
                 const std::vector<slicer::Layer>& layers,
                 slicer::SupportPlan& plan) {
-  std::vector<double> heights;
-  for (const slicer::Layer& layer : layers) heights.push_back(layer.section_z);
+  const std::vector<double> heights = heights_of(layers);
   const auto grid = ldni::LayerGrid::at_heights(heights);
   std::vector<slicer::SupportContact> contacts;
   for (const slicer::Support& support : plan.supports) {
@@ -172,16 +187,6 @@ void name_lines(const csg::Scene& scene,
 }
 
 }  // namespace
-
-slicer::SupportSizes support_sizes(const Request& request,
-                                   const Machine& machine) {
-  slicer::SupportSizes sizes = *request.supports;
-  if (sizes.tip == 0 && machine.material) {
-    sizes.tip = machine.material->support_tip;
-  }
-  if (sizes.tip == 0) sizes.tip = slicer::SupportSizes().tip;
-  return sizes;
-}
 
 std::optional<slicer::SupportPlan> plan_supports(const Request& request,
                                                  std::size_t evaluation_stack,

@@ -6,15 +6,10 @@
 
 #include "base/diagnostic.h"
 #include "base/file/temporary_files.h"
-#include "compiler/machine.h"
 #include "compiler/request.h"
 #include "slicer/supports/support_plan.h"
 
 namespace lamina::compiler {
-
-// The sizes of the supports that the request asks for, for a machine.
-slicer::SupportSizes support_sizes(const Request& request,
-                                   const Machine& machine);
 
 // The supports that the request asks for, made by slicing the design without
 // them. No value where the design fails: the run itself will say why. Warns of

@@ -152,9 +152,10 @@ class CheckCommand : public Command {
       text += fit_line(*machine.printer, request, found.box.size(), is_design);
     }
     const std::string estimate = slicer::estimate_text(
-        machine, slicer::estimate_print(machine, request.job.layer_thickness,
-                                        found.layers.size(), found.volume,
-                                        found.part_volume()));
+        machine,
+        slicer::estimate_print(
+            machine, request.job.layer_thickness, found.layers.size(),
+            found.volume, slicer::part_volume(found.volume, found.supports)));
     if (!estimate.empty()) text += estimate + '\n';
     text += finding_table(*found.print,
                           compiler::texts_of(inspection.lines.findings));

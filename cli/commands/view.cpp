@@ -217,9 +217,10 @@ std::string estimate_of(const compiler::Compilation& compilation,
   const slicer::Machine machine =
       compiler::choose_machine(request.output, compilation.file_access());
   return slicer::estimate_text(
-      machine, slicer::estimate_print(machine, request.job.layer_thickness,
-                                      found.layers.size(), found.volume,
-                                      found.part_volume()));
+      machine,
+      slicer::estimate_print(
+          machine, request.job.layer_thickness, found.layers.size(),
+          found.volume, slicer::part_volume(found.volume, found.supports)));
 }
 
 // "ring.scad:12:3" as the page shows it, which goes to other machines: from the

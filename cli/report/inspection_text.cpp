@@ -28,8 +28,9 @@ using slicer::ThinFeature;
 
 // Supports are printed, but not cast.
 double weight_of(const Inspection& found, const Material& material) {
-  return material.weight(material.is_metal() ? found.part_volume()
-                                             : found.volume);
+  return material.weight(material.is_metal()
+                             ? slicer::part_volume(found.volume, found.supports)
+                             : found.volume);
 }
 
 // Metals, wax, and resin as such, the heaviest first.

@@ -56,10 +56,6 @@ struct SliceReport {
   // Of the design's supports; nothing where it has none.
   std::optional<SupportMeasures> supports;
 
-  // Of the layers without supports [mm³].
-  double part_volume() const {
-    return volume - (supports ? supports->volume : 0);
-  }
   // Counts a layer that is written.
   void add(const LayerMeasures& layer, double bottom, double top);
 };

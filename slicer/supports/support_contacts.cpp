@@ -133,6 +133,11 @@ std::string size_text(const SupportMeasures& supports) {
       supports.contact_area());
 }
 
+double part_volume(double printed,
+                   const std::optional<SupportMeasures>& supports) {
+  return printed - (supports ? supports->volume : 0);
+}
+
 void SupportMeter::take(const Layer& layer) {
   ++layers_;
   measures_.volume +=

@@ -8,10 +8,12 @@
 // part touches it in the same way from above. Areas are as seen from above.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/vec.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/layer.h"
 
 namespace lamina::slicer {
@@ -22,7 +24,7 @@ struct SupportContact {
   double section_z = 0;        // of that layer
   double area = 0;             // as seen from above [mm²]
   bool is_from_above = false;  // the support stands on the part
-  std::uint32_t instance = 0xffffffff;  // of the part, where that is known
+  std::uint32_t instance = kNoInstance;  // of the part, where that is known
 };
 
 struct SupportMeasures {
@@ -34,6 +36,10 @@ struct SupportMeasures {
 
 // "174.2 mm³ of supports touch the part at 13 places, 0.918 mm² in all".
 std::string size_text(const SupportMeasures& supports);
+
+// What of a printed volume is not supports [mm³].
+double part_volume(double printed,
+                   const std::optional<SupportMeasures>& supports);
 
 class SupportMeter {
  public:

@@ -44,11 +44,6 @@ struct Inspection {
   std::vector<ThinFeature> features;
   std::optional<PrintCheck> print;          // of the layer graph
   std::optional<SupportMeasures> supports;  // of a design that has them
-
-  // Without supports [mm³].
-  double part_volume() const {
-    return volume - (supports ? supports->volume : 0);
-  }
 };
 
 struct InspectOptions {

@@ -88,8 +88,9 @@ struct Finding {
   Box3 box;
   // An island that another part reaches: then in layer last_layer + 1.
   bool is_joined = false;
-  bool is_weak() const { return bond < kWeakBond; }
   std::uint32_t instance = kNoInstance;  // what made it, where that is known
+
+  bool is_weak() const { return bond < kWeakBond; }
 };
 
 // "0.0356 mm², held from layer 72 on": how much of it there is.

@@ -109,7 +109,7 @@ TEST(SupportMeter, KnowsNoSupportsWithinADifference) {
   report = slice(design.scene(), plan_layers(design.scene(), settings),
                  settings, sink, diagnostics);
   EXPECT_FALSE(report.supports.has_value());
-  EXPECT_NEAR(report.part_volume(), 1000 - 64, 1e-6);
+  EXPECT_NEAR(part_volume(report.volume, report.supports), 1000 - 64, 1e-6);
 }
 
 }  // namespace
