@@ -104,7 +104,8 @@ Inspection look_at_file(const std::string& path, const LookOptions& options,
 Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
                           const Machine& machine, const LookOptions& options,
                           const Progress& progress, Diagnostics& diagnostics) {
-  const slicer::Settings settings = settings_of(request, machine);
+  slicer::Settings settings = settings_of(request, machine);
+  settings.keeps_colors = options.keeps_colors;
   Looker looker(options, false, {});
   slicer::SliceReport report = slice(lowered, plan(lowered, settings), settings,
                                      looker, progress, diagnostics);

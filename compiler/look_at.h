@@ -37,6 +37,7 @@ struct LookOptions {
   // Whether the layer graph is made of a file; of a design the slicer makes it.
   bool makes_graph = true;
   bool keeps_layers = false;
+  bool keeps_colors = false;  // with these layers: of a design's color()
 };
 
 struct Inspection {

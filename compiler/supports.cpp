@@ -17,7 +17,7 @@
 #include "slicer/check/thin/thin_finder.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/slice/leaf_at.h"
-#include "slicer/slice/support_scene.h"
+#include "slicer/slice/scene_parts.h"
 #include "slicer/supports/support_text.h"
 
 namespace lamina::compiler {

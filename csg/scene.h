@@ -69,6 +69,9 @@ struct Leaf {
   bool is_convex = false;
 };
 
+// Of an instance that no color() of the design is above.
+inline constexpr std::int32_t kNoColor = -1;
+
 // A leaf put into the world. Where the linear part of world_from_leaf has a
 // negative determinant (mirror) the map turns surfaces inside out: who needs
 // orientation negates windings there.
@@ -84,6 +87,7 @@ struct Instance {
   SourceRange range;  // of the module call that made the leaf
   const CallSite* caller = nullptr;
   float support_tip = kNoSupportTip;  // as of the node
+  std::int32_t color = kNoColor;      // of the outermost color(): 0xRRGGBB
 };
 
 struct Scene {

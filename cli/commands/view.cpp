@@ -273,7 +273,10 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   const compiler::Request& request = compilation.request;
   const bool draws_page = is_page(request.output.path);
   const auto inspection = compiler::look_at(
-      compilation, {.makes_graph = draws_page, .keeps_layers = true});
+      compilation,
+      {.makes_graph = draws_page,
+       .keeps_layers = true,
+       .keeps_colors = draws_page || options.style == Style::kStack});
   if (!inspection) return kFault;
   report_skipped(compilation, inspection->found.file);
   const std::vector<slicer::Layer>& layers = inspection->layers;

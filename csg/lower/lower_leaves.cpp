@@ -316,6 +316,7 @@ void Lowerer::place(std::uint32_t leaf, Vec3 size, const Place& at) {
   instance.range = at.node.range;
   instance.caller = at.node.caller;
   instance.support_tip = at.node.support_tip;
+  instance.color = color_;
   builder_.push(instance);
 }
 

@@ -150,7 +150,27 @@ std::vector<std::vector<Child>> list_children(const Scene& scene) {
   return children;
 }
 
+// Returns the color as an instance keeps it. What is not a number is 0.
+std::int32_t to_rgb(const Vec4& rgba) {
+  std::int32_t rgb = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double share = std::min(1.0, std::max(0.0, rgba[c]));
+    rgb = rgb << 8 | static_cast<std::int32_t>(std::lround(255 * share));
+  }
+  return rgb;
+}
+
 }  // namespace
+
+// The outermost of nested colors counts, as in OpenSCAD. One that could not be
+// read is none.
+Shape Lowerer::lower_op(const Color& op, const Place& at) {
+  const bool counts = color_ == kNoColor && op.rgba.x >= 0;
+  if (counts) color_ = to_rgb(op.rgba);
+  Shape shape = lower_children(at, plane::BooleanOp::kUnion);
+  if (counts) color_ = kNoColor;
+  return shape;
+}
 
 Shape Lowerer::lower_op(const Transform& op, const Place& at) {
   const std::size_t mark = builder_.mark();
@@ -303,6 +323,7 @@ void Lowerer::place_scene(const Scene& scene, const Affine& world) {
     instance.leaf = leaves[instance.leaf];
     instance.world_from_leaf = world * Mat4(m);
     instance.box = bound(instance.leaf, instance.world_from_leaf);
+    instance.color = color_;
     builder_.push(instance);
   };
   const auto place_operator = [&](const auto& self, std::uint32_t n) -> void {

@@ -1,6 +1,7 @@
 #pragma once
 // A finished layer, and who takes it.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "plane/contours.h"
 
 namespace lamina::slicer {
+
+// What of a layer has a color of its own.
+struct ColoredPart {
+  std::int32_t color = 0;  // 0xRRGGBB
+  plane::Contours contours;
+};
 
 struct Layer {
   double section_z = 0;  // height of the section [mm]
@@ -22,6 +29,8 @@ struct Layer {
   // supports are in the part.
   plane::Contours part;
   plane::Contours supports;
+  // Of a design with color(), if asked for: the same colors in all layers.
+  std::vector<ColoredPart> colored;
 };
 
 // Takes the layers of a job in ascending order: a writer, a comparison, a test.

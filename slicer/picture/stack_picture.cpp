@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include "base/parallel.h"
+#include "slicer/picture/detail/body_places.h"
 #include "slicer/picture/detail/layer_distance.h"
 #include "slicer/picture/detail/stack_points.h"
-#include "slicer/picture/detail/support_places.h"
 
 namespace lamina::slicer {
 namespace {
@@ -24,8 +24,9 @@ constexpr double kSlopeLength = 0.0018;
 // Tops that are level for this many such lengths are level.
 constexpr double kSlopeReach = 20;
 
-// Share of the light that supports mirror: they are cured resin.
-constexpr double kSupportShine = 0.25;
+// Share of the light that is mirrored by supports, which are cured resin, and
+// by what has a color of its own.
+constexpr double kPlainShine = 0.25;
 
 // How far walls shade each other: shares of the part's size and of the
 // picture's.
@@ -111,6 +112,12 @@ class Normals {
 double smooth_step(double from, double to, double value) {
   const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
   return t * t * (3 - 2 * t);
+}
+
+constexpr Rgb rgb(unsigned hex) {
+  return {static_cast<float>(hex >> 16 & 255) / 255,
+          static_cast<float>(hex >> 8 & 255) / 255,
+          static_cast<float>(hex & 255) / 255};
 }
 
 double to_linear(double srgb) {
@@ -211,11 +218,11 @@ class LitStack {
                    static_cast<double>(layers.size())),
         view_from_world_(camera.view_from_world()),
         part_studio_(options.colors->solid, options.colors->shine),
-        support_studio_(options.colors->supports, kSupportShine),
+        support_studio_(options.colors->supports, kPlainShine),
         points_(find_stack_points(layers, plates, camera, origin_, width_,
                                   height_)),
         normals_(layers, plates, size_),
-        supports_(layers) {
+        bodies_(layers) {
     const double pixels_per_mm =
         height_ / (2 * camera.distance *
                    std::tan(camera.field_deg * std::numbers::pi / 360));
@@ -239,10 +246,8 @@ class LitStack {
         const Vec3 place = place_of(point) + origin_;
         const Vec3 normal = normals_.at(static_cast<int>(point.tag), place);
         if (open < 0) open = openness(px, py, normal);
-        const bool is_support =
-            supports_.hold(static_cast<std::size_t>(point.tag), Vec2(place));
         const Vec3 light =
-            (is_support ? support_studio_ : part_studio_)
+            studio_at(static_cast<std::size_t>(point.tag), Vec2(place))
                 .light(Vec3(view_from_world_ * Vec4(normal, 0)), open);
         for (int c = 0; c < 3; ++c) {
           color[static_cast<std::size_t>(c)] =
@@ -265,6 +270,14 @@ class LitStack {
   const ldni::TaggedPoint& at(int x, int y) const {
     return points_[static_cast<std::size_t>(y) * width_ +
                    static_cast<std::size_t>(x)];
+  }
+
+  Studio studio_at(std::size_t layer, Vec2 place) const {
+    if (bodies_.is_of_support(layer, place)) return support_studio_;
+    if (const auto color = bodies_.color_at(layer, place)) {
+      return Studio(rgb(static_cast<unsigned>(*color)), kPlainShine);
+    }
+    return part_studio_;
   }
 
   // Chooses where to look for what hides the sky: near places more often.
@@ -319,7 +332,7 @@ class LitStack {
   Studio support_studio_;
   std::vector<ldni::TaggedPoint> points_;
   Normals normals_;
-  SupportPlaces supports_;
+  BodyPlaces bodies_;
   double reach_ = 0;   // of shade [pixels]
   double fading_ = 1;  // the same [mm]
   std::vector<std::array<int, 2>> places_;
@@ -329,12 +342,6 @@ Rgb mix(Rgb a, Rgb b, float share) {
   Rgb color{};
   for (std::size_t c = 0; c < 3; ++c) color[c] = a[c] + share * (b[c] - a[c]);
   return color;
-}
-
-constexpr Rgb rgb(unsigned hex) {
-  return {static_cast<float>(hex >> 16 & 255) / 255,
-          static_cast<float>(hex >> 8 & 255) / 255,
-          static_cast<float>(hex & 255) / 255};
 }
 
 // A grey blue, which is neither a metal nor most other parts.

@@ -1,7 +1,6 @@
 #include "slicer/picture/viewer_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -203,6 +202,7 @@ class PageMaker {
         has_supports_(std::ranges::any_of(
             layers,
             [](const Layer& layer) { return !layer.supports.is_empty(); })),
+        colors_(colors_of(layers)),
         step_(step_for(bounds_.size())),
         corners_(bounds_.low, step_),
         marks_(bounds_.low, step_) {}
@@ -213,9 +213,13 @@ class PageMaker {
     facts["title"] = title;
     facts["estimate"] = options_.estimate;
     if (has_supports_) facts["supports"] = describe_supports();
+    if (!colors_.empty()) facts["colors"] = colors_;
     for (const Layer& layer : layers_) {
       add_loops(layer.contours);
-      if (has_supports_) add_part_and_supports(layer);
+      if (has_supports_) {
+        add_bodies(layer.contours, {&layer.part, &layer.supports});
+      }
+      if (!colors_.empty()) add_colored(layer);
     }
     if (options_.print || options_.min_feature > 0) {
       facts["found"] = find_places();
@@ -238,6 +242,18 @@ class PageMaker {
   }
 
  private:
+  // "#rrggbb" of each.
+  static std::vector<std::string> colors_of(const std::vector<Layer>& layers) {
+    std::vector<std::string> colors;
+    const auto colored = std::ranges::find_if(
+        layers, [](const Layer& layer) { return !layer.colored.empty(); });
+    if (colored == layers.end()) return colors;
+    for (const ColoredPart& part : colored->colored) {
+      colors.push_back(fmt::format("#{:06x}", part.color));
+    }
+    return colors;
+  }
+
   static double step_for(Vec2 size) {
     double step = kFinestStep;
     while (std::max(size.x, size.y) / step > kMostSteps) step *= 10;
@@ -294,34 +310,43 @@ class PageMaker {
     }
   }
 
-  // Says of each loop of the whole whether it is the part's (0), the supports'
-  // (1) or of both together (2), and adds what loops of the part, and then of
-  // the supports, are left.
-  void add_part_and_supports(const Layer& layer) {
-    const std::array<const plane::Contours*, 2> own = {&layer.part,
-                                                       &layer.supports};
-    const std::array<plane::LoopIndex, 2> loops = {
-        plane::LoopIndex(layer.part), plane::LoopIndex(layer.supports)};
-    std::array<std::vector<bool>, 2> is_known = {
-        std::vector<bool>(layer.part.loop_count()),
-        std::vector<bool>(layer.supports.loop_count())};
-    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+  // Says of each loop whose it is: the number of a body, or of how many there
+  // are. Adds what loops of the bodies are left, body by body.
+  void add_bodies(const plane::Contours& whole,
+                  const std::vector<const plane::Contours*>& bodies) {
+    std::vector<plane::LoopIndex> loops;
+    std::vector<std::vector<bool>> is_known;
+    for (const plane::Contours* body : bodies) {
+      loops.emplace_back(*body);
+      is_known.emplace_back(body->loop_count());
+    }
+    for (std::size_t i = 0; i < whole.loop_count(); ++i) {
       std::size_t owner = 0;
-      for (; owner < own.size(); ++owner) {
-        const auto found = loops[owner].find(layer.contours.loop(i));
+      for (; owner < bodies.size(); ++owner) {
+        const auto found = loops[owner].find(whole.loop(i));
         if (!found) continue;
         is_known[owner][*found] = true;
         break;
       }
       numbers_.add_count(owner);
     }
-    for (std::size_t owner = 0; owner < own.size(); ++owner) {
+    for (std::size_t owner = 0; owner < bodies.size(); ++owner) {
       plane::Contours rest;
-      for (std::size_t i = 0; i < own[owner]->loop_count(); ++i) {
-        if (!is_known[owner][i]) rest.add_loop(own[owner]->loop(i));
+      for (std::size_t i = 0; i < bodies[owner]->loop_count(); ++i) {
+        if (!is_known[owner][i]) rest.add_loop(bodies[owner]->loop(i));
       }
       add_loops(rest);
     }
+  }
+
+  // Layers without contours have no colored parts.
+  void add_colored(const Layer& layer) {
+    static const plane::Contours kNothing;
+    std::vector<const plane::Contours*> bodies(colors_.size(), &kNothing);
+    for (std::size_t i = 0; i < layer.colored.size(); ++i) {
+      bodies[i] = &layer.colored[i].contours;
+    }
+    add_bodies(has_supports_ ? layer.part : layer.contours, bodies);
   }
 
   // What is to be said of the print, and where.
@@ -383,6 +408,7 @@ class PageMaker {
   const ViewerOptions& options_;
   const Box2 bounds_;
   const bool has_supports_;
+  const std::vector<std::string> colors_;
   const double step_;
   PointEncoder corners_;
   PointEncoder marks_;

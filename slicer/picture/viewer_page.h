@@ -11,7 +11,7 @@
 // Of a print with supports the page gets the part and the supports by
 // themselves, too. Nearly all loops of a layer are loops of one of both: a
 // number for each says of which, and only where part and supports touch their
-// own loops follow.
+// own loops follow. What has a color of its own comes in the same way.
 
 #include <optional>
 #include <string>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ldni/section/leaf_section.h"
-#include "slicer/slice/support_scene.h"
+#include "slicer/slice/scene_parts.h"
 
 namespace lamina::slicer {
 namespace {

@@ -43,6 +43,7 @@ struct Settings {
   // only [mm]; 0: there is no search.
   double min_feature = 0;
   PrintRules print;
+  bool keeps_colors = false;  // of color(): Layer::colored
   bool finds_makers = false;  // of what the layer graph finds: its leaves
   ContourMode contour = ContourMode::kFaithful;
   ldni::PaperOptions paper;  // for ContourMode::kPaper

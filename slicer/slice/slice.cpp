@@ -13,7 +13,7 @@
 #include "slicer/slice/detail/block_slicer.h"
 #include "slicer/slice/detail/slice_job.h"
 #include "slicer/slice/leaf_at.h"
-#include "slicer/slice/support_scene.h"
+#include "slicer/slice/scene_parts.h"
 #include "slicer/supports/support_plan.h"
 
 namespace lamina::slicer {
@@ -165,12 +165,21 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   const std::optional<csg::Scene> supports = supports_of(scene);
   const Settings settings = supports ? with_hold(asked, *supports) : asked;
   csg::Scene part;
+  std::vector<ColoredScene> colored;
   report.section_seconds = measure_seconds([&] {
     plans.whole = plan_blocks(scene, settings, grid);
-    if (!supports) return;
-    part = without_supports(scene);
-    plans.part = plan_blocks(part, settings, grid);
-    plans.supports = plan_blocks(*supports, settings, grid);
+    if (supports) {
+      part = without_supports(scene);
+      plans.part = plan_blocks(part, settings, grid);
+      plans.supports = plan_blocks(*supports, settings, grid);
+    }
+    if (settings.keeps_colors) {
+      colored = colored_parts_of(supports ? part : scene);
+    }
+    for (const ColoredScene& own : colored) {
+      plans.colored.push_back(
+          {own.color, plan_blocks(own.scene, settings, grid)});
+    }
   });
   report.renderer = plans.whole.renderer;
   std::optional<FeatureCollector> features;

@@ -615,6 +615,33 @@ class ViewerTest(unittest.TestCase):
             facts = re.search('id="facts">(.*)</script>', file.read())[1]
         self.assertNotIn("supports", facts)
 
+    def test_colors_of_the_design_show_on_the_solid(self):
+        with open(self.path("colored.scad"), "w", encoding="utf-8") as file:
+            file.write("""difference() {
+                color("lime") cube([10, 10, 4]);
+                translate([2, 2, 2]) cube([6, 6, 3]);
+              }
+              color("red") translate([14, 0, 0]) cube([6, 10, 4]);
+              translate([0, 14, 0]) cube([20, 5, 4]);""")
+        lamina("view", self.path("colored.scad"), "-o",
+               self.path("colored.html"))
+        for state in ("theme=light&view=3d", "theme=light&layer=5&view=3d"):
+            self.open("colored.html", state)
+            left, top, width, height = self.browser.place_of("solid")
+            picture = self.browser.screenshot()
+            counts = {"red": 0, "lime": 0, "gold": 0}
+            for y in range(int(top), int(top + height), 3):
+                for x in range(int(left), int(left + width), 3):
+                    red, green, blue = picture.at(x, y)[:3]
+                    if red > 2 * green + 40:
+                        counts["red"] += 1
+                    elif green > 2 * red + 40:
+                        counts["lime"] += 1
+                    elif red > blue + 60:
+                        counts["gold"] += 1
+            for color, count in counts.items():
+                self.assertGreater(count, 300, f"{color} in {state}")
+
     def test_a_finding_is_turned_to(self):
         self.make_figure()
         self.open("figure.html", "theme=light")

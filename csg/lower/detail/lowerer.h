@@ -60,7 +60,7 @@ struct Place {
 // What only unites its children.
 template <typename Op>
 concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
-    std::same_as<Op, Render> || std::same_as<Op, Color>;
+    std::same_as<Op, Render>;
 
 // What is made once for the whole design, though parts of it are lowered apart.
 struct SharedTables {
@@ -105,6 +105,7 @@ class Lowerer {
     return lower_children(at, plane::BooleanOp::kIntersection);
   }
   Shape lower_op(const Transform& op, const Place& at);
+  Shape lower_op(const Color& op, const Place& at);
 
   // Treats the parts above the mark, of this shape, as a singular matrix that
   // placed them asks for.
@@ -241,6 +242,7 @@ class Lowerer {
   // Only the corners of the next leaf count: it is below a hull, without
   // siblings all the way. So its faces need not be closed.
   bool takes_corners_ = false;
+  std::int32_t color_ = kNoColor;  // of the outermost color() above
   LeafStore leaves_;
   ProgramBuilder builder_;
   std::array<KeptBox, 64> kept_boxes_;

@@ -57,20 +57,22 @@ function readLoops(numbers, places) {
   });
 }
 
-// The loops of the part and of the supports by themselves: loops of the whole,
-// each with its owner, and what is left of both.
-function readOwnLoops(numbers, places, contours) {
+// The loops of some bodies by themselves: loops of the whole, each with its owner,
+// and what is left of each body.
+function readBodies(numbers, places, contours, count) {
   const owners = contours.map(() => numbers.count());
-  return [0, 1].map((owner) => [
+  return Array.from({length: count}, (_, owner) => [
     ...contours.filter((_, i) => owners[i] === owner), ...readLoops(numbers, places)]);
 }
 
 // {title, estimate, low, size, volume, minFeature, layers: [{z, bottom, top,
-// loops, holes, vertices, area, perimeter, contours, marks}], found, supports};
+// loops, holes, vertices, area, perimeter, contours, marks}], found, supports,
+// colored};
 // contours are lists of loops; found has what was looked for, else it is null:
 // {places: [{kind, first, last, layer, place, reach, text, origin}], notes,
 // hasPrint}. supports is null where there are none: {text, partVolume, layers:
-// [{bottom, top, contours}]}. partLayers are the layers without supports.
+// [{bottom, top, contours}]}. partLayers are the layers without supports; colored
+// is what of the part has a color: [{color, layers}].
 async function readPart() {
   const text = (id) => document.getElementById(id).textContent;
   const facts = JSON.parse(text("facts"));
@@ -83,8 +85,10 @@ async function readPart() {
   for (const layer of layers) {
     layer.contours = readLoops(numbers, places);
     if (facts.supports) {
-      [layer.part, layer.supports] = readOwnLoops(numbers, places, layer.contours);
+      [layer.part, layer.supports] = readBodies(numbers, places, layer.contours, 2);
     }
+    layer.colored = !facts.colors ? [] : readBodies(
+        numbers, places, layer.part || layer.contours, facts.colors.length);
   }
   if (facts.minFeature) {
     places = new Places(numbers, facts.step);
@@ -124,6 +128,10 @@ async function readPart() {
     layers,
     partLayers,
     supports,
+    colored: (facts.colors || []).map((color, i) => ({
+      color,
+      layers: layers.map(({bottom, top, colored}) => ({bottom, top, contours: colored[i]})),
+    })),
     found,
   };
 }

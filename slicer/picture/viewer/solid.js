@@ -535,7 +535,8 @@ void main() {
 }`;
 
 const kGold = [.92, .58, .16];  // linear light
-const kSupportShine = .25;      // as in stack_picture.cpp
+const kSupportDepth = 2;
+const kPlainShine = .25;        // as in stack_picture.cpp
 const kGamma = 2.2;             // of the shader's light
 
 // "#rrggbb" as numbers from 0 to 1.
@@ -571,7 +572,6 @@ class Solid {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    gl.polygonOffset(1, 4);
     this.gl = gl;
     const full = this.bodies.map((body) => new PlateMesh(body, kFull));
     const corners = full.reduce((sum, mesh) => sum + mesh.corners, 0);
@@ -589,17 +589,20 @@ class Solid {
     }
   }
 
-  // The part, and the supports if there are any: layers in one colour, which is
-  // in linear light.
+  // The part, what of it has a color, and the supports if there are any: layers in
+  // one colour, which is in linear light. Where several are at one place, that with
+  // the least depth is seen.
   bodiesOf(gl) {
-    const {partLayers, supports, size} = this.part;
-    const bodyOf = (layers, isSupport, shine, color) => ({
-      layers, size, isSupport, shine, color, mesh: null, cut: null, sectionQuads: null,
+    const {partLayers, supports, colored, size} = this.part;
+    const bodyOf = (layers, depth, shine, color) => ({
+      layers, size, depth, shine, color, mesh: null, cut: null, sectionQuads: null,
       surface: this.corners(gl, true), section: this.corners(gl, true),
     });
-    const grey = () => rgbOf(color("support")).map((value) => value ** kGamma);
-    return [bodyOf(partLayers, false, 1, () => kGold),
-      ...supports ? [bodyOf(supports.layers, true, kSupportShine, grey)] : []];
+    const linear = (rgb) => rgbOf(rgb).map((value) => value ** kGamma);
+    return [bodyOf(partLayers, 1, 1, () => kGold),
+      ...colored.map((own) => bodyOf(own.layers, 0, kPlainShine, () => linear(own.color))),
+      ...supports ?
+        [bodyOf(supports.layers, kSupportDepth, kPlainShine, () => linear(color("support")))] : []];
   }
 
   program(gl, fragmentShader) {
@@ -689,7 +692,7 @@ class Solid {
     const {gl, canvas, part} = this;
     const {index} = state;
     const bodies = (this.bodies || []).filter(
-        ({mesh, isSupport}) => mesh && (state.supports || !isSupport));
+        ({mesh, depth}) => mesh && (state.supports || depth !== kSupportDepth));
     if (bodies.length === 0) return;
     const ratio = window.devicePixelRatio || 1;
     canvas.width = Math.round(canvas.clientWidth * ratio);
@@ -737,14 +740,14 @@ class Solid {
     if (state.marks) this.drawMarks(ratio, use, isWhole ? Infinity : index);
   }
 
-  // Where supports and the part are at one place, the part is seen.
   forBodies(bodies, drawBody) {
     const {gl} = this;
+    gl.enable(gl.POLYGON_OFFSET_FILL);
     for (const body of bodies) {
-      if (body.isSupport) gl.enable(gl.POLYGON_OFFSET_FILL);
+      gl.polygonOffset(body.depth, 4 * body.depth);
       drawBody(body);
-      gl.disable(gl.POLYGON_OFFSET_FILL);
     }
+    gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
   // All of it, or as far as a layer.

@@ -94,6 +94,13 @@ class Worker {
       support_slicer_->section(block.first_layer, block.layer_count);
       part_slicer_->section(block.first_layer, block.layer_count);
     }
+    while (color_slicers_.size() < plans_.colored.size()) {
+      const Plan& plan = plans_.colored[color_slicers_.size()].plan;
+      color_slicers_.push_back(plan.make_slicer());
+    }
+    for (const auto& slicer : color_slicers_) {
+      slicer->section(block.first_layer, block.layer_count);
+    }
     repeats_.assign(block.layer_count, 0);
     for (std::uint32_t i = 0; i < block.layer_count; ++i) {
       repeats_[i] = slicer_->repeats(i) ? 1 : 0;
@@ -104,6 +111,7 @@ class Worker {
     for_each_new(block, [&](std::uint32_t i, Draft& draft) {
       slicer_->make_contours(i, draft.layer.contours);
       if (support_slicer_) separate_supports(i, draft.layer);
+      separate_colors(i, draft.layer);
     });
   }
 
@@ -174,16 +182,29 @@ class Worker {
     }
   }
 
+  void separate_colors(std::uint32_t i, Layer& layer) {
+    layer.colored.resize(color_slicers_.size());
+    for (std::size_t c = 0; c < color_slicers_.size(); ++c) {
+      layer.colored[c].color = plans_.colored[c].color;
+      color_slicers_[c]->make_contours(i, layer.colored[c].contours);
+    }
+  }
+
+  // Finishes contours of a share of the layer as those of all of it.
+  void finish_share(plane::Contours& contours) {
+    compensate(contours, compensation_);
+    simplifier_.simplify(contours);
+  }
+
   void finish_draft(Draft& draft) {
     Layer& layer = draft.layer;
     draft.losses = compensate(layer.contours, compensation_);
     layer.compensation = compensation_;
     if (support_slicer_) {
-      for (plane::Contours* const own : {&layer.part, &layer.supports}) {
-        compensate(*own, compensation_);
-        simplifier_.simplify(*own);
-      }
+      finish_share(layer.part);
+      finish_share(layer.supports);
     }
+    for (ColoredPart& colored : layer.colored) finish_share(colored.contours);
     simplifier_.simplify(layer.contours);
     layer.clearance = simplifier_.clearance();
     draft.measures = measure(layer.contours);
@@ -200,6 +221,7 @@ class Worker {
   // If there are supports.
   std::unique_ptr<BlockSlicer> support_slicer_;
   std::unique_ptr<BlockSlicer> part_slicer_;
+  std::vector<std::unique_ptr<BlockSlicer>> color_slicers_;  // as the plans
   std::optional<ThinFinder> thin_finder_;  // if thin places are searched for
   std::optional<OverlaySweep> overlay_sweep_;  // if there is a layer graph
   Simplifier simplifier_;

@@ -2,7 +2,9 @@
 // The pipeline of a job: one thread or several turn blocks of layers into
 // contours, which leave in order.
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "ldni/section/grid.h"
 #include "slicer/check/print/layer_graph.h"
@@ -21,12 +23,19 @@ struct Checks {
   SupportMeter* supports = nullptr;
 };
 
+struct ColoredPlan {
+  std::int32_t color = 0;  // 0xRRGGBB
+  Plan plan;
+};
+
 // How a job makes its layers.
 struct Plans {
   Plan whole;
   // Of a scene with supports, the part and its supports by themselves.
   std::optional<Plan> part;
   std::optional<Plan> supports;
+  // Of the part, what has a color, by itself.
+  std::vector<ColoredPlan> colored;
 };
 
 // Hands the layers of `grid` to `sink`. Empty layers wait until another layer

@@ -1,5 +1,5 @@
 // What pictures of stacks are made of: trapezoids, depths in layers, places of
-// supports, the camera.
+// supports and colors, the camera.
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 
 #include "plane/loop_area.h"
 #include "slicer/picture/camera.h"
+#include "slicer/picture/detail/body_places.h"
 #include "slicer/picture/detail/layer_distance.h"
-#include "slicer/picture/detail/support_places.h"
 #include "slicer/picture/detail/trapezoids.h"
 
 namespace lamina::slicer {
@@ -166,30 +166,49 @@ plane::Contours rectangle(Vec2 low, Vec2 high) {
 }
 
 // A bar that is half in the part, and a post beside both.
-TEST(SupportPlaces, AreThoseOfSupportsButNotOfThePart) {
+TEST(BodyPlaces, OfSupportsAreNotOfThePart) {
   Layer layer;
   layer.part = rectangle({0, 0}, {6, 6});
   layer.supports = rectangle({5, 2}, {7, 4});
   layer.supports.add_loop(rectangle({9, 9}, {10, 10}).points);
-  const SupportPlaces places({{}, layer, {}});
+  const BodyPlaces places({{}, layer, {}});
   for (const Vec2 place :
        {Vec2(6.5, 3), Vec2(7, 3), Vec2(6.1, 2), Vec2(9.5, 9.5), Vec2(9, 9),
         Vec2(10.001, 9.5), Vec2(7, 4.001)}) {
-    EXPECT_TRUE(places.hold(1, place)) << place.x << ' ' << place.y;
+    EXPECT_TRUE(places.is_of_support(1, place)) << place.x << ' ' << place.y;
   }
   for (const Vec2 place :
        {Vec2(3, 3), Vec2(5.5, 3), Vec2(5, 2), Vec2(6, 5), Vec2(6, 0),
         Vec2(6.001, 1), Vec2(0, -0.02), Vec2(5.95, 3)}) {
-    EXPECT_FALSE(places.hold(1, place)) << place.x << ' ' << place.y;
+    EXPECT_FALSE(places.is_of_support(1, place)) << place.x << ' ' << place.y;
   }
-  EXPECT_FALSE(places.hold(0, {6.5, 3}));
-  EXPECT_FALSE(places.hold(2, {6.5, 3}));
+  EXPECT_FALSE(places.is_of_support(0, {6.5, 3}));
+  EXPECT_FALSE(places.is_of_support(2, {6.5, 3}));
 }
 
-TEST(SupportPlaces, AreNoneWhereLayersKnowOfNone) {
+TEST(BodyPlaces, AreOfNothingWhereLayersKnowOfNone) {
   Layer layer;
   layer.contours = rectangle({0, 0}, {6, 6});
-  EXPECT_FALSE(SupportPlaces({layer}).hold(0, {3, 3}));
+  const BodyPlaces places({layer});
+  EXPECT_FALSE(places.is_of_support(0, {3, 3}));
+  EXPECT_FALSE(places.color_at(0, {3, 3}));
+}
+
+// A red square and a blue one that overlap, and a bare one.
+TEST(BodyPlaces, HaveTheColorThatTheyLieDeepestIn) {
+  Layer layer;
+  layer.colored = {{0xff0000, rectangle({0, 0}, {6, 6})},
+                   {0x0000ff, rectangle({5.9, 2}, {9, 4})}};
+  const BodyPlaces places({layer, {}});
+  for (const auto& [place, color] :
+       {std::pair(Vec2(3, 3), 0xff0000), std::pair(Vec2(6, 5), 0xff0000),
+        std::pair(Vec2(5.92, 3), 0xff0000), std::pair(Vec2(5.98, 3), 0x0000ff),
+        std::pair(Vec2(7, 2), 0x0000ff), std::pair(Vec2(7, 1.999), 0x0000ff)}) {
+    EXPECT_EQ(places.color_at(0, place), color) << place.x << ' ' << place.y;
+  }
+  EXPECT_FALSE(places.color_at(0, {12, 3}));
+  EXPECT_FALSE(places.color_at(0, {7, 1.99}));
+  EXPECT_FALSE(places.color_at(1, {3, 3}));
 }
 
 TEST(Camera, AnEyeIsAtTheOriginOfTheView) {

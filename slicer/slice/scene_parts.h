@@ -1,5 +1,5 @@
 #pragma once
-// Some leaves of a scene by themselves: its supports above all.
+// Parts of a scene by themselves: its supports, and what has a color.
 //
 // Supports are leaves that one of kSupportModules made and that nothing but
 // unions has changed. What a difference or an intersection has in hand belongs
@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "csg/scene.h"
 
@@ -24,5 +25,14 @@ bool is_support(const csg::Scene& scene, const csg::Instance& instance);
 std::optional<csg::Scene> supports_of(const csg::Scene& scene);
 
 csg::Scene without_supports(const csg::Scene& scene);
+
+struct ColoredScene {
+  std::int32_t color = 0;  // 0xRRGGBB
+  csg::Scene scene;
+};
+
+// One scene for each color, in the order in which leaves have them. Leaves
+// without a color are in none but where they are subtracted or intersected.
+std::vector<ColoredScene> colored_parts_of(const csg::Scene& scene);
 
 }  // namespace lamina::slicer
