@@ -127,6 +127,8 @@ class BatchCommand : public Command {
     } catch (const FileError& error) {
       throw RequestError(error.what());
     }
+    table_.request.output.path =
+        with_extension(table_.request, output_options_);
     OutputOptions output = output_options_;
     // A report of ledgers is none of layers.
     if (!ledgers_.empty()) output.report.clear();

@@ -329,23 +329,6 @@ class SliceCommand : public Command {
             }};
   }
 
-  // What a known printer reads, where neither name nor option says it.
-  std::string extension() const {
-    if (!output_.export_format.empty()) return output_.export_format;
-    const std::string& name = request_.output.printer;
-    if (name.empty() || name.ends_with(".json")) return "slc";
-    const slicer::Printer printer = slicer::find_printer(name);
-    return slicer::usual_extension(printer.title, printer.reads);
-  }
-
-  // The path with an extension of what the printer reads, where it has none.
-  std::string with_extension(const std::string& path) const {
-    const bool says_format = path == "-" || request_.output.printer.empty() ||
-                             !output_.export_format.empty() ||
-                             std::filesystem::path(path).has_extension();
-    return says_format ? path : fmt::format("{}.{}", path, extension());
-  }
-
   // A name such as "ring.png/" is that of an output that is a folder.
   bool is_folder() const {
     const std::string& output = request_.output.path;
@@ -360,17 +343,18 @@ class SliceCommand : public Command {
 
   std::string output_of(const std::string& design) const {
     if (request_.output.path.empty()) {
-      return std::filesystem::path(design).replace_extension(extension());
+      return std::filesystem::path(design).replace_extension(
+          usual_extension(request_, output_));
     }
     if (is_folder()) {
       return fmt::format("{}{}.{}", request_.output.path, stem(design),
-                         extension());
+                         usual_extension(request_, output_));
     }
-    if (!is_pattern()) return with_extension(request_.output.path);
-    return fill_pattern(
-        with_extension(request_.output.path), [&](const std::string& word) {
-          return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
-        });
+    const std::string path = with_extension(request_, output_);
+    if (!is_pattern()) return path;
+    return fill_pattern(path, [&](const std::string& word) {
+      return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
+    });
   }
 
   // A dump goes to standard output where no file is named.

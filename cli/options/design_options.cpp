@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "cli/process/exit_status.h"
 #include "csg/support_tip.h"
 #include "slicer/formats/output_format.h"
+#include "slicer/machine/printer.h"
 
 namespace lamina::cli {
 namespace {
@@ -255,6 +257,26 @@ void add_output_options(OptionList& options, compiler::Request& request,
   options.name("--report", "file", output.report);
   add_print_options(options, request);
   options.layer_range(request.job.written);
+}
+
+std::string usual_extension(const compiler::Request& request,
+                            const OutputOptions& options) {
+  if (!options.export_format.empty()) return options.export_format;
+  const std::string& name = request.output.printer;
+  if (name.empty() || name.ends_with(".json")) return "slc";
+  const slicer::Printer printer = slicer::find_printer(name);
+  return slicer::usual_extension(printer.title, printer.reads);
+}
+
+std::string with_extension(const compiler::Request& request,
+                           const OutputOptions& options) {
+  const std::string& path = request.output.path;
+  const bool says_format = path == "-" || request.output.printer.empty() ||
+                           !options.export_format.empty() ||
+                           std::filesystem::path(path).has_extension();
+  return says_format
+             ? path
+             : fmt::format("{}.{}", path, usual_extension(request, options));
 }
 
 void choose_format(compiler::Request& request, const OutputOptions& options,

@@ -42,6 +42,17 @@ void add_print_options(OptionList& options, compiler::Request& request);
 void add_output_options(OptionList& options, compiler::Request& request,
                         OutputOptions& output);
 
+// The extension of an output that has none: --export-format, or what a printer
+// that lamina knows reads. Throws FileError where lamina writes nothing that
+// this printer reads.
+std::string usual_extension(const compiler::Request& request,
+                            const OutputOptions& options);
+
+// The name of the output, with that extension where it has none and a printer
+// is named.
+std::string with_extension(const compiler::Request& request,
+                           const OutputOptions& options);
+
 // Chooses the format by --export-format or, where that is empty, by the name
 // of the output, and checks what else is asked for against it. Throws
 // RequestError.

@@ -56,6 +56,23 @@ class Echoes {
   support::ProcessResult result_;
 };
 
+TEST(Batch, ThePrinterChoosesTheFormat) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "h = 1; cube([10, 10, h]);");
+  folder.write("t.csv", "name,h\na,1\nb,2\n");
+  const auto batch = [&](const std::string& printer) {
+    return run(folder, {"batch", "a.scad", "--table", "t.csv", "-o", "{name}",
+                        "--layer", "0.5", "--printer", printer});
+  };
+  EXPECT_EQ(batch("elegoo-mars-4").status, 0);
+  for (const char* name : {"a.goo", "b.goo"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
+  }
+  const auto result = batch("elegoo-mars-3");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "encrypted .ctb files only")) << result.errors;
+}
+
 TEST(Batch, ItsReportAddsUp) {
   const TemporaryFolder folder;
   folder.write("a.scad", "h = 1; cube([10, 10, h]);");
