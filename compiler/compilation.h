@@ -36,6 +36,7 @@ struct Report {
   Machine machine;
   // The supports that were added, if any were asked for.
   std::optional<slicer::SupportPlan> supports;
+  std::optional<slicer::HollowReport> hollow;  // if it was asked for
   slicer::PrintEstimate estimate;
   std::uint64_t snapped_layers = 0;  // slicer::LayerWriter
   std::uint64_t warnings = 0;

@@ -206,7 +206,8 @@ bool compile(Compilation& c) {
                                          c.temporary_files, c.diagnostics);
 
   // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
-  // leaves. The scene is turned and placed here, while it is still one thing.
+  // leaves. The scene is turned, hollowed and placed here, while it is still
+  // one thing.
   const csg::Lowered lowered = lower_tree(c);
 
   if (ends_strictly(c)) return false;
@@ -238,6 +239,13 @@ csg::Lowered lower_tree(Compilation& c) {
   csg::Lowered lowered = timed(c.report.lower_seconds, [&] {
     return lower(c.tree, c.request, c.report.machine, c.readers, c.diagnostics);
   });
+  if (c.request.hollow) {
+    c.on_pass("hollowing");
+    c.report.hollow = timed(c.report.lower_seconds, [&] {
+      return hollow(lowered, c.request, c.report.machine, c.diagnostics);
+    });
+  }
+  place_on_bed(lowered, c.request.geometry);
   c.emptiness = csg::why_empty(c.tree);
   c.tree.drop_nodes();
   explained(c, [&] { judge(lowered, c.request, c.diagnostics); });

@@ -135,20 +135,17 @@ slicer::OrientationChoice choose_orientation(const csg::Scene& scene,
   return choice;
 }
 
-// Moves the scene as a whole, which needs its surface.
-void place(const Request& request, const Machine& machine, csg::Scene& scene,
-           Diagnostics& diagnostics) {
-  if (request.geometry.axis == kAutomaticAxis) {
-    const slicer::OrientationChoice choice =
-        choose_orientation(scene, request, machine);
-    const slicer::Orientation& best = choice.all[choice.best];
-    csg::move_scene(scene, slicer::turn_to_axis(best.axis, best.turn), Vec3(0));
-    std::istringstream table(slicer::orientation_table(choice));
-    for (std::string line; std::getline(table, line);) {
-      diagnostics.report({Severity::kPlain, {}, line});
-    }
+// Turns the scene to the axis that is best, and says why.
+void turn_automatically(const Request& request, const Machine& machine,
+                        csg::Scene& scene, Diagnostics& diagnostics) {
+  const slicer::OrientationChoice choice =
+      choose_orientation(scene, request, machine);
+  const slicer::Orientation& best = choice.all[choice.best];
+  csg::move_scene(scene, slicer::turn_to_axis(best.axis, best.turn), Vec3(0));
+  std::istringstream table(slicer::orientation_table(choice));
+  for (std::string line; std::getline(table, line);) {
+    diagnostics.report({Severity::kPlain, {}, line});
   }
-  if (request.geometry.is_placed_on_bed) slicer::place_on_bed(scene);
 }
 
 // Counts layers on their way to a sink. Both must outlive it; the progress may
@@ -288,10 +285,40 @@ csg::Lowered lower(const csg::Tree& tree, const Request& request,
                    Diagnostics& diagnostics) {
   csg::Lowered lowered =
       csg::lower(tree, lower_options(request.geometry, readers), diagnostics);
-  if (auto* scene = std::get_if<csg::Scene>(&lowered.geometry)) {
-    place(request, machine, *scene, diagnostics);
+  auto* scene = std::get_if<csg::Scene>(&lowered.geometry);
+  if (scene != nullptr && request.geometry.axis == kAutomaticAxis) {
+    turn_automatically(request, machine, *scene, diagnostics);
   }
   return lowered;
+}
+
+std::optional<slicer::HollowReport> hollow(csg::Lowered& lowered,
+                                           const Request& request,
+                                           const Machine& machine,
+                                           Diagnostics& diagnostics) {
+  if (!request.hollow || lowered.is_empty()) return std::nullopt;
+  auto* scene = std::get_if<csg::Scene>(&lowered.geometry);
+  if (scene == nullptr) {
+    diagnostics.own_warning({}, "--hollow needs a solid; the design is flat");
+    return std::nullopt;
+  }
+  slicer::HollowSizes sizes = *request.hollow;
+  const GeometryRequest& geometry = request.geometry;
+  if (!sizes.drains.empty()) {
+    const Affine turn = slicer::turn_to_axis(geometry.axis, geometry.turn);
+    for (slicer::DrainPlace& drain : sizes.drains) {
+      drain.place = geometry.scale * (turn * Vec4(drain.place, 0));
+    }
+  }
+  return slicer::hollow_out(*scene, sizes, settings_of(request, machine),
+                            diagnostics);
+}
+
+void place_on_bed(csg::Lowered& lowered, const GeometryRequest& request) {
+  auto* scene = std::get_if<csg::Scene>(&lowered.geometry);
+  if (scene != nullptr && request.is_placed_on_bed) {
+    slicer::place_on_bed(*scene);
+  }
 }
 
 void judge(const csg::Lowered& lowered, const Request& request,

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,13 +61,21 @@ csg::Tree evaluate(LoadedDesign& design, const Request& request,
                    const Loader& loader, Readers& readers,
                    std::size_t stack_bytes, Diagnostics& diagnostics);
 
-// What the tree means, turned to the axis and placed on the bed: a scene, an
-// outline, or nothing.
+// What the tree means, turned to the axis: a scene, an outline, or nothing.
 //
 // machine  for whose printer --axis auto chooses
 csg::Lowered lower(const csg::Tree& tree, const Request& request,
                    const Machine& machine, Readers& readers,
                    Diagnostics& diagnostics);
+
+// Hollows a solid, if that is asked for.
+std::optional<slicer::HollowReport> hollow(csg::Lowered& lowered,
+                                           const Request& request,
+                                           const Machine& machine,
+                                           Diagnostics& diagnostics);
+
+// Shifts a solid onto the bed, if that is asked for.
+void place_on_bed(csg::Lowered& lowered, const GeometryRequest& request);
 
 // Throws GeometryError where that is nothing, or an outline that the format of
 // the output cannot hold; warns of what is probably not meant.

@@ -11,6 +11,7 @@
 #include "parser/customizer/parameter_set.h"
 #include "slicer/dump/layer_dump.h"
 #include "slicer/formats/output_format.h"
+#include "slicer/hollow/hollow.h"
 #include "slicer/machine/material.h"
 #include "slicer/slice/settings.h"
 #include "slicer/supports/support_plan.h"
@@ -94,6 +95,8 @@ struct OutputRequest {
 struct Request {
   DesignRequest design;
   GeometryRequest geometry;
+  // Lengths as the print has them, places as the design has them.
+  std::optional<slicer::HollowSizes> hollow;
   slicer::Settings job;  // how the solid is sliced
   // Supports are added to the design. A tip of 0 is that of the material, or
   // the usual one.

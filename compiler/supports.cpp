@@ -28,6 +28,10 @@ namespace {
 Request without_supports(const Request& request) {
   Request part = request;
   part.supports.reset();
+  if (part.hollow) {
+    part.hollow = part.hollow->scaled(1 / part.geometry.scale);
+    part.hollow->has_plugs = false;
+  }
   part.geometry.scale = 1;
   part.geometry.is_placed_on_bed = false;
   part.job.written = {};

@@ -75,8 +75,8 @@ Design:
   -D NAME=VALUE       set a variable of the design; may be repeated
   -p FILE -P SET      set its parameters from a file of the customizer
   --part NAME         slice one part of a CAD file or a 3MF ('lamina parts')
-  --strict            treat warnings as errors (default for batches and --root)
-  --no-strict         let batches and --root go on after warnings
+  --strict, --no-strict
+                      treat warnings as errors, or not [batches and --root do]
   --watch             slice again whenever a file changes; Ctrl-C ends
 
 Slicing (lengths in millimetres):
@@ -86,6 +86,7 @@ Slicing (lengths in millimetres):
                       one that fits and has the fewest steps [z]
   --supports          add supports; =light for tips of 0.25 mm, =medium 0.3,
                       =heavy 0.4 or a diameter; =heavy,raft on a raft [medium]
+  --hollow MM         hollow the part, with walls of MM and drains (--help-all)
   --place-on-bed      put the lowest point of the design at height 0
   --scale FACTOR      enlarge the print, by 1.02 where casting shrinks [1]
   --compensate MM     move contours into the solid by half the beam's width [0]
@@ -129,6 +130,11 @@ More of the design:
 More of slicing:
   --turn DEG          turn the design about the axis, anticlockwise seen from
                       above [0]
+  --drain none|MM|X,Y,Z,MM
+                      drains of --hollow: none, how wide, or where in the
+                      design; several may be given [two each, 1.2 mm wide in
+                      parts up to 40 mm, else 2]
+  --drain-plug        add what drains take away, to be glued in again
   --support-on LINES  support only what these lines of the design make: 12, or
                       lib.scad:12, separated by commas
   --no-support-on LINES

@@ -26,6 +26,10 @@ std::vector<std::string> texts(const Words& words) {
   return {words.begin(), words.end()};
 }
 
+// Of drains [mm].
+constexpr double kLeastDrain = 0.3;
+constexpr double kGreatestDrain = 20;
+
 // As slicer::FindingKind.
 constexpr std::array<std::string_view, slicer::kFindingKinds> kFindingWords = {
     "islands", "loose-parts", "overhangs", "suction-cups", "resin-traps"};
@@ -75,6 +79,37 @@ slicer::SupportSizes sizes_of(const std::string& text) {
     sizes.tip = *tip;
   }
   return sizes;
+}
+
+slicer::HollowSizes& hollow_of(compiler::Request& request) {
+  if (!request.hollow) request.hollow.emplace();
+  return *request.hollow;
+}
+
+// text  "none", "1.5", "0,0,3.5,1.5"
+void add_drain(const std::string& text, slicer::HollowSizes& sizes) {
+  if (text == "none") {
+    sizes.has_drains = false;
+    return;
+  }
+  std::vector<double> numbers;
+  for (const std::string& word : words_of(text)) {
+    const auto value = parse_number(word);
+    require(value.has_value(), "--drain",
+            "expected a diameter, X,Y,Z,DIAMETER or none, not '{}'", text);
+    numbers.push_back(*value);
+  }
+  require((numbers.size() == 1 || numbers.size() == 4) &&
+              numbers.back() >= kLeastDrain && numbers.back() <= kGreatestDrain,
+          "--drain",
+          "expected a diameter of {:g} to {:g} mm, X,Y,Z,DIAMETER or none, "
+          "not '{}'",
+          kLeastDrain, kGreatestDrain, text);
+  if (numbers.size() == 1) {
+    sizes.drain_diameter = numbers[0];
+  } else {
+    sizes.drains.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3]});
+  }
 }
 
 // words  "islands,loose-parts", "all"
@@ -187,6 +222,14 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.text("--no-support-on", "lines", [&request](const std::string& text) {
     request.support_lines.without = lines_of("--no-support-on", text);
   });
+  options.text("--hollow", "length", [&request](const std::string& text) {
+    hollow_of(request).wall = require_within("--hollow", text);
+  });
+  options.texts("--drain", "drain", [&request](const std::string& text) {
+    add_drain(text, hollow_of(request));
+  });
+  options.flag("--drain-plug",
+               [&request] { hollow_of(request).has_plugs = true; });
   options.flag("--place-on-bed", request.geometry.is_placed_on_bed);
   options.choice(
       "--contour", {"faithful", "paper"}, [&](const std::string& mode) {

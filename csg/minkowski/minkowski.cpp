@@ -10,17 +10,20 @@
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/boundary_faces.h"
-#include "csg/boundary/convex_hull.h"
 #include "csg/boundary/leaf_faces.h"
 #include "csg/limits.h"
 #include "csg/mesh/vertex_table.h"
 #include "csg/minkowski/convex.h"
 #include "csg/minkowski/convex_leaf.h"
+#include "csg/minkowski/detail/surfaces.h"
 #include "csg/minkowski/joined_faces.h"
 #include "csg/minkowski/surface_sum.h"
-#include "plane/region/convex_faces.h"
 
 namespace lamina::csg {
+
+using detail::hull_of;
+using detail::join;
+
 namespace {
 
 // --- Convex parts ------------------------------------------------------------
@@ -30,29 +33,6 @@ Convex add_prism(const Prism& prism, const Convex& other) {
   Convex swept = add_flat(prism.axis, other);
   find_edges(swept);
   return add_flat(prism.base, swept);
-}
-
-// Sums that rounding has put side by side count as one point: the facets
-// between them have normals of noise.
-std::vector<Vec3> without_twins(const std::vector<Vec3>& points) {
-  const std::vector<std::uint32_t> names = join_near(points);
-  std::vector<Vec3> first;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (names[i] == i) first.push_back(points[i]);
-  }
-  return first;
-}
-
-Convex hull_of(const std::vector<Vec3>& points) {
-  const Mesh hull = convex_hull(without_twins(points));
-  std::vector<std::vector<std::uint32_t>> loops;
-  for (plane::Face& face :
-       plane::merge_to_convex(hull.vertices, hull.triangles)) {
-    loops.push_back(std::move(face.corners));
-  }
-  Convex body = make_solid(hull.vertices, loops);
-  body.is_hull = true;
-  return body;
 }
 
 // The same body with few more vertices than it needs. A sum has facets side by
@@ -91,16 +71,6 @@ Convex add_convex(const Convex& a, const Convex& b) {
 }
 
 // --- Bodies ------------------------------------------------------------------
-
-JoinedFaces join(Mesh mesh) {
-  std::vector<std::vector<std::uint32_t>> loops;
-  for (plane::Face& face :
-       plane::merge_to_convex(mesh.vertices, mesh.triangles)) {
-    loops.push_back(std::move(face.corners));
-  }
-  const std::vector<Vec3> normals = normals_of(mesh.vertices, loops);
-  return {std::move(mesh.vertices), std::move(loops), normals};
-}
 
 Mesh mesh_of(LeafFaces faces) {
   return {std::move(faces.vertices), std::move(faces.triangles)};

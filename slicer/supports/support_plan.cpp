@@ -12,7 +12,7 @@
 #include "base/diagnostic.h"
 #include "base/text.h"
 #include "slicer/supports/detail/contact_finder.h"
-#include "slicer/supports/detail/layer_solids.h"
+#include "slicer/supports/detail/marked_places.h"
 #include "slicer/supports/detail/support_router.h"
 #include "slicer/supports/detail/support_trees.h"
 #include "slicer/supports/detail/symmetry.h"
@@ -115,10 +115,10 @@ SupportPlan plan_supports(std::span<const Layer> layers,
   }
   require_size(layers);
   plan.bed = bed_below(layers.front(), sizes.lift);
-  const detail::LayerSolids solids(layers);
+  const LayerSolids solids(layers);
   std::vector<detail::MarkedPlaces> places;
   for (const MarkedSolid& one : marked) {
-    places.push_back({one.tip, detail::LayerSolids(one.layers)});
+    places.push_back({one.tip, LayerSolids(one.layers)});
   }
   const auto symmetries = detail::find_symmetries(solids, places);
   detail::FoundContacts found =

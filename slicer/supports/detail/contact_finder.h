@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "slicer/supports/detail/layer_solids.h"
+#include "slicer/supports/detail/marked_places.h"
 #include "slicer/supports/detail/symmetry.h"
 #include "slicer/supports/support_plan.h"
 

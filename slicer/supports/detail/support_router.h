@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slicer/supports/detail/contact_finder.h"
-#include "slicer/supports/detail/layer_solids.h"
+#include "slicer/supports/detail/marked_places.h"
 #include "slicer/supports/support_plan.h"
 
 namespace lamina::slicer::detail {

@@ -9,7 +9,7 @@
 #include <glm/mat3x2.hpp>
 
 #include "base/vec.h"
-#include "slicer/supports/detail/layer_solids.h"
+#include "slicer/supports/detail/marked_places.h"
 
 namespace lamina::slicer::detail {
 

@@ -9,12 +9,7 @@
 #include "plane/edge_tree.h"
 #include "slicer/contour/layer.h"
 
-namespace lamina::slicer::detail {
-
-// The sides to which one looks from a place, in equal steps: side k as a
-// direction of length 1.
-inline constexpr int kSides = 16;
-Vec2 side(int k);
+namespace lamina::slicer {
 
 class LayerSolids {
  public:
@@ -47,10 +42,4 @@ class LayerSolids {
   std::vector<std::size_t> solid_of_;
 };
 
-// Where the design wants tips of another diameter; 0: none.
-struct MarkedPlaces {
-  double tip = 0;
-  LayerSolids solids;
-};
-
-}  // namespace lamina::slicer::detail
+}  // namespace lamina::slicer

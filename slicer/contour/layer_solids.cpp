@@ -1,18 +1,12 @@
-#include "slicer/supports/detail/layer_solids.h"
+#include "slicer/contour/layer_solids.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "plane/predicates.h"
 
-namespace lamina::slicer::detail {
-
-Vec2 side(int k) {
-  const double angle = 2 * std::numbers::pi * k / kSides;
-  return {std::cos(angle), std::sin(angle)};
-}
+namespace lamina::slicer {
 
 LayerSolids::LayerSolids(std::span<const Layer> layers) : layers_(layers) {
   solids_.reserve(layers.size());
@@ -66,4 +60,4 @@ std::size_t LayerSolids::layer_above(double height) const {
   return static_cast<std::size_t>(found - layers_.begin());
 }
 
-}  // namespace lamina::slicer::detail
+}  // namespace lamina::slicer
