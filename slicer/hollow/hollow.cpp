@@ -35,9 +35,6 @@ constexpr double kFillOverlap = 0.02;
 // Of drains and plugs.
 constexpr int kRodFacets = 32;
 
-// A plug stands so far from the part [mm].
-constexpr double kPlugDistance = 2;
-
 // A drain of the user's that is farther from all cavities than so many walls
 // is a mistake.
 constexpr double kFarDrain = 5;

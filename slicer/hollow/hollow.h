@@ -34,7 +34,7 @@ struct HollowSizes {
   double wall = 0;  // least thickness [mm]
   // Not empty: drains are at these places only, and cavities without one stay
   // solid.
-  std::vector<DrainPlace> drains;
+  std::vector<DrainPlace> drains = {};
   bool has_drains = true;     // false: cavities stay closed
   double drain_diameter = 0;  // of the others [mm]; 0: by the size of the part
   // What is drilled stands beside the part, for gluing it in again.
@@ -51,6 +51,8 @@ inline constexpr double kLargeDrain = 2;
 
 // How much narrower than its drain a plug is [mm].
 inline constexpr double kPlugPlay = 0.1;
+// How far from the part and from each other plugs stand [mm].
+inline constexpr double kPlugDistance = 2;
 
 struct HollowReport {
   std::size_t cavities = 0;

@@ -1,9 +1,13 @@
 #include "tests/oracle/surface_distance.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -39,6 +43,22 @@ double surface_distance(const csg::Mesh& from, const csg::Mesh& to,
                         double error) {
   return processing::bounded_error_Hausdorff_distance<CGAL::Sequential_tag>(
       to_surface(from), to_surface(to), error);
+}
+
+std::vector<double> distances_from(const csg::Mesh& surface,
+                                   const std::vector<Vec3>& places) {
+  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Surface>;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+  const Surface faces = to_surface(surface);
+  Tree tree(CGAL::faces(faces).begin(), CGAL::faces(faces).end(), faces);
+  tree.accelerate_distance_queries();
+  std::vector<double> distances;
+  distances.reserve(places.size());
+  for (const Vec3& p : places) {
+    distances.push_back(
+        std::sqrt(tree.squared_distance(Kernel::Point_3(p.x, p.y, p.z))));
+  }
+  return distances;
 }
 
 }  // namespace lamina::oracle

@@ -64,6 +64,25 @@ Drain along(const Way& way, double z, double diameter) {
   return along(Vec3(way.inside, z), Vec3(way.outside, z), diameter);
 }
 
+// The point of a region that is nearest to a place.
+Vec2 nearest_in(const plane::Region& region, Vec2 place) {
+  int winding = 0;
+  Vec2 nearest = place;
+  double distance = std::numeric_limits<double>::infinity();
+  for (const plane::Contour& contour : region.contours) {
+    winding += winding_number(contour, place);
+    for (std::size_t k = 0; k < contour.size(); ++k) {
+      const Vec2 from = contour[k];
+      const Vec2 to = contour[(k + 1) % contour.size()];
+      const Vec2 point = from + (to - from) * nearest_share(place, from, to);
+      if (glm::length(point - place) >= distance) continue;
+      distance = glm::length(point - place);
+      nearest = point;
+    }
+  }
+  return winding > 0 ? place : nearest;
+}
+
 }  // namespace
 
 std::vector<Drain> choose_drains(const Cavity& cavity, const LayerSolids& part,
@@ -101,16 +120,9 @@ NearestCavity find_nearest(Vec3 place, std::span<const Cavity> cavities,
     for (const CavityLayer& one : cavities[i].layers) {
       const double z = part.layer(one.layer).section_z;
       if (std::abs(z - place.z) >= best.distance) continue;
-      for (const plane::Contour& contour : one.region.contours) {
-        for (std::size_t k = 0; k < contour.size(); ++k) {
-          const Vec2 from = contour[k];
-          const Vec2 to = contour[(k + 1) % contour.size()];
-          const Vec3 point(
-              from + (to - from) * nearest_share(Vec2(place), from, to), z);
-          const double distance = glm::length(point - place);
-          if (distance < best.distance) best = {i, point, distance};
-        }
-      }
+      const Vec3 point(nearest_in(one.region, Vec2(place)), z);
+      const double distance = glm::length(point - place);
+      if (distance < best.distance) best = {i, point, distance};
     }
   }
   return best;

@@ -1,0 +1,114 @@
+// Walls of hollow parts, measured by CGAL from surfaces that openscad renders.
+
+#include "slicer/hollow/hollow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "base/diagnostic.h"
+#include "csg/minkowski/shell.h"
+#include "tests/oracle/openscad.h"
+#include "tests/oracle/surface_distance.h"
+#include "tests/support/design.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::oracle {
+namespace {
+
+// Heights of sections; with steps along them that makes some 10⁵ places.
+constexpr int kSections = 60;
+constexpr double kStep = 0.04;
+
+constexpr const char* kPieces[] = {
+    // Smooth, with a flat bottom.
+    "difference() { sphere(9, $fn = 60); translate([0, 0, -19]) "
+    "cube(20, center = true); }",
+    // A signet: a band and a head that meet in inner edges.
+    "difference() { union() { rotate([90, 0, 0]) cylinder(r = 11, h = 8, "
+    "center = true, $fn = 72); translate([0, 0, 9]) cube([16, 12, 8], "
+    "center = true); } rotate([90, 0, 0]) cylinder(r = 6, h = 30, center = "
+    "true, $fn = 72); }",
+    // Twisted, with edges that lean.
+    "linear_extrude(20, twist = 90, slices = 40) difference() { square(14, "
+    "center = true); translate([4, 0]) square([8, 3]); }",
+    // Corners of many faces, and a cavity of the design's own.
+    "difference() { rotate([20, 30, 5]) cylinder(r1 = 10, r2 = 5, h = 18, $fn "
+    "= 7); translate([2, 3, 8]) sphere(2, $fn = 24); }",
+    // A branched body.
+    "for (a = [0 : 72 : 359]) rotate([0, 60, a]) cylinder(r1 = 6, r2 = 5, h = "
+    "14, $fn = 24); sphere(7, $fn = 40);",
+};
+
+// Places along all contours, no farther apart than kStep.
+std::vector<Vec3> places_on(const std::vector<slicer::Layer>& layers) {
+  std::vector<Vec3> places;
+  for (const slicer::Layer& layer : layers) {
+    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+      const auto loop = layer.contours.loop(i);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vec2 from = loop[k];
+        const Vec2 to = loop[(k + 1) % loop.size()];
+        const int parts = 1 + static_cast<int>(glm::length(to - from) / kStep);
+        for (int part = 0; part < parts; ++part) {
+          places.emplace_back(from + (to - from) * (double(part) / parts),
+                              layer.section_z);
+        }
+      }
+    }
+  }
+  return places;
+}
+
+class HollowWalls : public testing::TestWithParam<std::tuple<int, double>> {};
+
+TEST_P(HollowWalls, AreAsThickAsAskedFor) {
+  const auto& [piece, wall] = GetParam();
+  const support::TemporaryFolder folder;
+  const csg::Mesh surface =
+      render_with_openscad(folder.write("a.scad", kPieces[piece]));
+  const support::Design design = support::Design::from_text(kPieces[piece]);
+  csg::Scene scene = design.scene();
+  Diagnostics diagnostics;
+  const auto report = slicer::hollow_out(
+      scene, {.wall = wall, .has_drains = false}, {}, diagnostics);
+  ASSERT_GE(report.cavities, 1U);
+  std::vector<double> heights;
+  for (int i = 0; i < kSections; ++i) {
+    heights.push_back(scene.box.low.z +
+                      (i + 0.37) / kSections * scene.box.size().z);
+  }
+  const std::vector<double> distances = distances_from(
+      surface, places_on(support::slice_heights(scene, heights)));
+  // openscad's STL rounds to six digits.
+  constexpr double kRounding = 1e-4;
+  std::size_t inside = 0;
+  double least = 1e9;
+  double greatest = 0;
+  for (const double distance : distances) {
+    if (distance < kRounding) continue;
+    ++inside;
+    least = std::min(least, distance);
+    greatest = std::max(greatest, distance);
+  }
+  RecordProperty("places", std::to_string(inside));
+  RecordProperty("least", std::to_string(least));
+  RecordProperty("greatest", std::to_string(greatest));
+  EXPECT_GT(inside, 10000U);
+  EXPECT_GE(least, wall - kRounding);
+  EXPECT_LE(greatest, wall * (1 + csg::kShellExcess) + kRounding);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Pieces, HollowWalls,
+    testing::Combine(testing::Range(0, static_cast<int>(std::size(kPieces))),
+                     testing::Values(0.4, 0.8, 2.0)));
+
+}  // namespace
+}  // namespace lamina::oracle
