@@ -2,7 +2,7 @@
 // the irregular strip packing problem, and how long it takes for rings.
 //
 //   plate_bench strip FILE WORK      one line: pieces, length, density, seconds
-//   plate_bench rings COUNT          one line: plates, seconds
+//   plate_bench rings COUNT WORK     one line: plates, seconds
 //
 // FILE is an instance as sparrow reads it. Densities count only where the exact
 // check finds no pieces too near to each other.
@@ -11,7 +11,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <string>
@@ -28,13 +30,18 @@
 namespace lamina::slicer {
 namespace {
 
-template <typename Work>
-double seconds_of(const Work& work) {
+double wall_seconds_of(const std::function<void()>& work) {
   const auto begin = std::chrono::steady_clock::now();
   work();
   const std::chrono::duration<double> duration =
       std::chrono::steady_clock::now() - begin;
   return duration.count();
+}
+
+double processor_seconds_of(const std::function<void()>& work) {
+  const std::clock_t begin = std::clock();
+  work();
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
 struct Instance {
@@ -69,8 +76,8 @@ int measure_strip(const std::string& path, double work) {
   Instance instance = read_instance(path);
   instance.strip.work = work;
   StripPlan plan;
-  const double seconds =
-      seconds_of([&] { plan = pack_strip(instance.pieces, instance.strip); });
+  const double seconds = processor_seconds_of(
+      [&] { plan = pack_strip(instance.pieces, instance.strip); });
   double covered = 0;
   std::vector<plane::Region> placed;
   for (const Placement& one : plan.placements) {
@@ -113,7 +120,7 @@ plane::Region random_ring(std::mt19937& random) {
   return region;
 }
 
-int measure_rings(std::size_t count) {
+int measure_rings(std::size_t count, double work) {
   std::mt19937 random(1);
   std::vector<Piece> pieces(count);
   for (Piece& piece : pieces) {
@@ -124,8 +131,10 @@ int measure_rings(std::size_t count) {
   plate.size = {143.4, 89.6};
   plate.gap = 1;
   plate.margin = 1;
+  plate.work = work;
   PlatePlan plan;
-  const double seconds = seconds_of([&] { plan = pack_plates(pieces, plate); });
+  const double seconds =
+      wall_seconds_of([&] { plan = pack_plates(pieces, plate); });
   fmt::print("{} {} {:.3f}\n", count, plan.plates, seconds);
   return EXIT_SUCCESS;
 }
@@ -138,9 +147,11 @@ int main(int count, char** arguments) {
   if (words.size() == 3 && words[0] == "strip") {
     return lamina::slicer::measure_strip(words[1], std::stod(words[2]));
   }
-  if (words.size() == 2 && words[0] == "rings") {
-    return lamina::slicer::measure_rings(std::stoul(words[1]));
+  if (words.size() == 3 && words[0] == "rings") {
+    return lamina::slicer::measure_rings(std::stoul(words[1]),
+                                         std::stod(words[2]));
   }
-  fmt::print(stderr, "plate_bench strip FILE WORK | plate_bench rings COUNT\n");
+  fmt::print(stderr,
+             "plate_bench strip FILE WORK | plate_bench rings COUNT WORK\n");
   return 2;
 }

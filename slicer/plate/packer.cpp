@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "plane/region/boolean.h"
 #include "slicer/plate/detail/bottom_left.h"
+#include "slicer/plate/detail/plate_saver.h"
 #include "slicer/plate/detail/turned_piece.h"
 #include "slicer/plate/distance.h"
 #include "slicer/plate/footprint.h"
@@ -73,7 +74,10 @@ class Packer {
 
   PlatePlan pack() {
     find_too_large();
-    if (plan_.too_large.size() < pieces_.size()) fill();
+    if (plan_.too_large.size() < pieces_.size()) {
+      fill();
+      if (plate_.work > 0) save_plates();
+    }
     write_placements();
     check();
     return std::move(plan_);
@@ -115,6 +119,20 @@ class Packer {
         laid_.push_back(*laid);
       }
     }
+  }
+
+  void save_plates() {
+    PlateSaver saver(turned_, plate_.turns, area_, plate_.work * 1e6);
+    std::size_t plates = 0;
+    for (const LaidPiece& laid : laid_) {
+      plates = std::max(plates, laid.plate + 1);
+    }
+    for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+      while (plan_.left_over[piece] > 0 && saver.add(piece, plates, laid_)) {
+        --plan_.left_over[piece];
+      }
+    }
+    while (plates > 1 && saver.empty_last(plates, laid_)) --plates;
   }
 
   void write_placements() {

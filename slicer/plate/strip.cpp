@@ -13,8 +13,21 @@
 namespace lamina::slicer {
 namespace {
 
-// The strip's depth has at least so many places.
-constexpr double kPlacesPerDepth = 200;
+// The strip's depth has at least so many places. A coarse lattice lets the
+// search see many more layouts in the same time; a finer one then brings the
+// pieces of the best closer to each other.
+constexpr double kPlacesPerDepth = 100;
+constexpr std::int32_t kRefinement = 4;
+constexpr double kCoarseWork = 0.6;  // share of the work
+
+// By such a share of its length the strip becomes shorter at first.
+constexpr double kCoarseCut = 0.02;
+constexpr double kFineCut = 0.002;
+
+// So many rounds in turn may fail to lower the overlap, and so many times two
+// pieces are exchanged then.
+constexpr std::size_t kPatience = 100;
+constexpr int kExchanges = 2;
 
 class StripPacker {
  public:
@@ -22,33 +35,33 @@ class StripPacker {
       : pieces_(pieces),
         strip_(strip),
         turned_(turn_pieces(pieces, strip.gap, strip.turns)),
-        step_(std::exp2(std::floor(std::log2(strip.depth / kPlacesPerDepth)))),
-        tables_(turned_, step_),
-        search_(turned_, strip.turns, tables_, strip.seed) {}
+        step_(std::exp2(std::floor(std::log2(strip.depth / kPlacesPerDepth)))) {
+  }
 
   StripPlan pack() {
     fill();
-    search_.set_work(strip_.work * 1e6);
-    shorten();
+    shorten(kCoarseCut, strip_.work * kCoarseWork);
+    refine();
+    shorten(kFineCut, strip_.work * (1 - kCoarseWork));
     StripPlan plan;
     for (const LatticePiece& piece : best_) {
       const TurnedPiece& turned = turned_[piece.turned];
       const Vec2 corner = Vec2(piece.place.column, piece.place.row) * step_;
       plan.placements.push_back(
           {turned.piece, 0, turned.turn_deg, corner - turned.box.low});
-      plan.length = std::max(plan.length, corner.x + turned.size().x);
     }
+    plan.length = length();
     return plan;
   }
 
  private:
   void fill() {
-    double length = 0;
+    double most = 0;
     for (std::size_t i = 0; i < turned_.size(); ++i) {
-      length += turned_[i].size().x *
-                static_cast<double>(pieces_[turned_[i].piece].quantity);
+      most += turned_[i].size().x *
+              static_cast<double>(pieces_[turned_[i].piece].quantity);
     }
-    BottomLeftFill fill(turned_, strip_.turns, {length, strip_.depth}, step_,
+    BottomLeftFill fill(turned_, strip_.turns, {most, strip_.depth}, step_,
                         strip_.gap);
     std::vector<std::size_t> order(pieces_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -57,55 +70,90 @@ class StripPacker {
     });
     for (const std::size_t piece : order) {
       for (std::size_t k = 0; k < pieces_[piece].quantity; ++k) {
-        const auto laid = fill.lay(piece, 1);
-        if (!laid) continue;
-        const Vec2 at = glm::round(laid->corner / step_);
-        best_.push_back({laid->turned,
+        const LaidPiece laid = fill.lay(piece, 1).value();
+        const Vec2 at = glm::round(laid.corner / step_);
+        best_.push_back({laid.turned,
                          {static_cast<std::int32_t>(at.x),
                           static_cast<std::int32_t>(at.y)}});
       }
     }
   }
 
-  double length_of(std::span<const LatticePiece> pieces) const {
+  // Goes on with a finer lattice.
+  void refine() {
+    step_ /= kRefinement;
+    for (LatticePiece& piece : best_) {
+      piece.place.column *= kRefinement;
+      piece.place.row *= kRefinement;
+    }
+  }
+
+  double length() const {
     double length = 0;
-    for (const LatticePiece& piece : pieces) {
+    for (const LatticePiece& piece : best_) {
       length = std::max(
           length, piece.place.column * step_ + turned_[piece.turned].size().x);
     }
     return length;
   }
 
-  void shorten() {
-    double share = 0.04;
-    while (search_.work() > 0) {
-      const double length = length_of(best_);
-      const double cut = std::max(1.0, std::floor(length * share / step_));
-      search_.set_area({length, strip_.depth});
-      search_.set_pieces(best_);
-      search_.shift_left(static_cast<std::int32_t>(cut));
-      search_.set_area({length - cut * step_, strip_.depth});
-      search_.set_pieces(search_.pieces());
-      bool done = search_.separate(60);
-      for (int k = 0; k < 2 && !done && search_.work() > 0; ++k) {
-        search_.exchange_two();
-        done = search_.separate(60);
+  // In a shorter strip a piece would fit in no turn.
+  double least_length() const {
+    double least = 0;
+    for (const LatticePiece& laid : best_) {
+      const std::size_t first = laid.turned / strip_.turns * strip_.turns;
+      double shortest = turned_[laid.turned].size().x;
+      for (unsigned turn = 0; turn < strip_.turns; ++turn) {
+        const Vec2 size = turned_[first + turn].size();
+        if (size.y <= strip_.depth) shortest = std::min(shortest, size.x);
       }
-      if (done) {
-        best_ = search_.pieces();
+      least = std::max(least, shortest);
+    }
+    return least;
+  }
+
+  // Makes the strip shorter by a share of its length, again and again, and by a
+  // smaller share where that fails.
+  void shorten(double share, double work) {
+    NoFitTables tables(turned_, step_);
+    GuidedSearch search(turned_, strip_.turns, tables, strip_.seed);
+    search.set_work(work * 1e6);
+    const double least = least_length();
+    while (search.work() > 0) {
+      const double before = length();
+      const double cut =
+          std::min(std::max(1.0, std::floor(before * share / step_)),
+                   std::floor((before - least) / step_));
+      if (cut < 1) return;
+      search.set_area({before, strip_.depth});
+      search.set_pieces(best_);
+      search.shift_left(static_cast<std::int32_t>(cut));
+      search.set_area({before - cut * step_, strip_.depth});
+      search.set_pieces(search.pieces());
+      if (separate(search)) {
+        best_ = search.pieces();
       } else {
         share /= 2;
-        share = std::max(share, 0.001);
       }
     }
+  }
+
+  // Whether the pieces find places, in some attempts: after each that fails two
+  // pieces of the best state exchange theirs.
+  static bool separate(GuidedSearch& search) {
+    for (int attempt = 0; search.work() > 0; ++attempt) {
+      if (search.separate(kPatience)) return true;
+      if (attempt == kExchanges) return false;
+      search.set_pieces(search.least_overlap());
+      search.exchange_two();
+    }
+    return false;
   }
 
   std::span<const Piece> pieces_;
   const Strip& strip_;
   std::vector<TurnedPiece> turned_;
-  double step_;
-  NoFitTables tables_;
-  GuidedSearch search_;
+  double step_;  // of the lattice [mm]
   std::vector<LatticePiece> best_;
 };
 

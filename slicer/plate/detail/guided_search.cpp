@@ -16,8 +16,25 @@ constexpr float kDecay = 0.95F;
 constexpr float kLeastRaise = 1.2F;
 constexpr float kGreatestRaise = 2.0F;
 
+// What it takes to make a table: for each entry, and for each sum of two convex
+// parts.
+constexpr double kWorkPerEntry = 8;
+constexpr double kWorkPerSum = 1000;
+
+// What it takes to look at an entry of a table by itself, and at one of those
+// that follow each other.
+constexpr double kWorkPerPrice = 2;
+constexpr double kWorkPerSumOfGrid = 0.25;
+
 // So many places of each turn are improved.
 constexpr std::size_t kCandidates = 3;
+
+// So often a piece is drawn that differs from another one; they may all be the
+// same.
+constexpr int kDraws = 8;
+
+// The greatest weight on the coarse grid.
+constexpr float kGreatestGridWeight = 64;
 
 // A candidate is improved within so many steps, in each direction.
 constexpr std::int32_t kReach = 12;
@@ -40,7 +57,9 @@ const NoFitTable& NoFitTables::of(std::size_t a, std::size_t b) {
   std::unique_ptr<NoFitTable>& table = tables_[a * turned_.size() + b];
   if (!table) {
     table = std::make_unique<NoFitTable>(parts_of(a), parts_of(b), step_);
-    entries_ += table->size();
+    work_ += kWorkPerEntry * static_cast<double>(table->size()) +
+             kWorkPerSum *
+                 static_cast<double>(parts_of(a).size() * parts_of(b).size());
     if (a != b) {
       const NoFitTable& made = *table;
       tables_[b * turned_.size() + a] =
@@ -58,7 +77,16 @@ CellPlace GuidedSearch::last_place(std::size_t turned) const {
           static_cast<std::int32_t>(std::floor(room.y))};
 }
 
+bool GuidedSearch::fits(std::size_t turned) const {
+  const CellPlace last = last_place(turned);
+  return last.column >= 0 && last.row >= 0;
+}
+
 void GuidedSearch::keep_inside(LatticePiece& piece) const {
+  const std::size_t first = piece.turned / turns_ * turns_;
+  for (unsigned turn = 0; turn < turns_ && !fits(piece.turned); ++turn) {
+    piece.turned = first + turn;
+  }
   const CellPlace last = last_place(piece.turned);
   piece.place.column = std::clamp(piece.place.column, 0, last.column);
   piece.place.row = std::clamp(piece.place.row, 0, last.row);
@@ -89,7 +117,7 @@ double GuidedSearch::measure() {
       sum += here;
     }
   }
-  work_ -= static_cast<double>(count * count);
+  use_work(static_cast<double>(count * count));
   return sum;
 }
 
@@ -105,30 +133,37 @@ void GuidedSearch::raise_weights() {
   }
 }
 
+// The pieces that overlap others, in random order.
+std::vector<std::size_t> GuidedSearch::draw_order() {
+  std::vector<std::size_t> order;
+  const std::size_t count = pieces_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto depths = std::span(depths_).subspan(i * count, count);
+    if (std::any_of(depths.begin(), depths.end(),
+                    [](std::uint8_t depth) { return depth > 0; })) {
+      order.push_back(i);
+    }
+  }
+  for (std::size_t i = order.size(); i > 1; --i) {
+    std::swap(order[i - 1], order[random_below(i)]);
+  }
+  return order;
+}
+
 bool GuidedSearch::separate(std::size_t patience) {
   double least = std::numeric_limits<double>::max();
-  std::vector<std::size_t> order;
-  for (std::size_t rounds = 0; rounds < patience && work_ > 0; ++rounds) {
+  for (std::size_t rounds = 0; rounds < patience && work() > 0; ++rounds) {
     const double overlap = measure();
     if (overlap == 0) return true;
     if (overlap < least) {
       least = overlap;
+      least_overlap_ = pieces_;
       rounds = 0;
     }
     raise_weights();
-    order.clear();
-    const std::size_t count = pieces_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto row = depths_.begin() + static_cast<std::ptrdiff_t>(i * count);
-      if (std::any_of(row, row + static_cast<std::ptrdiff_t>(count),
-                      [](std::uint8_t d) { return d > 0; })) {
-        order.push_back(i);
-      }
+    for (const std::size_t i : draw_order()) {
+      if (work() > 0) move(i);
     }
-    for (std::size_t i = order.size(); i > 1; --i) {
-      std::swap(order[i - 1], order[random_below(i)]);
-    }
-    for (const std::size_t i : order) move(i);
   }
   return false;
 }
@@ -152,10 +187,8 @@ double GuidedSearch::price(std::size_t i, CellPlace place) const {
   return sum;
 }
 
-// Looks at every fourth place, and keeps the best of each of the best columns.
-void GuidedSearch::add_candidates(std::size_t i, std::size_t turned) {
-  const CellPlace last = last_place(turned);
-  if (last.column < 0 || last.row < 0) return;
+// Adds up prices at every fourth place.
+void GuidedSearch::fill_grid(std::size_t i, CellPlace last) {
   constexpr std::int32_t kStride = NoFitTable::kStride;
   const auto phase = [&](std::int32_t most) {
     return static_cast<std::int32_t>(
@@ -165,103 +198,136 @@ void GuidedSearch::add_candidates(std::size_t i, std::size_t turned) {
   grid_.columns = (last.column - grid_.first.column) / kStride + 1;
   grid_.rows = (last.row - grid_.first.row) / kStride + 1;
   grid_.sums.assign(static_cast<std::size_t>(grid_.columns * grid_.rows), 0);
+  const auto weights =
+      std::span(weights_).subspan(i * pieces_.size(), pieces_.size());
+  const float scale =
+      kGreatestGridWeight / *std::max_element(weights.begin(), weights.end());
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     if (k == i) continue;
-    near_tables_[k]->add_to(grid_, pieces_[k].place, weight(i, k));
-    work_ -= static_cast<double>(near_tables_[k]->size()) / 64;
+    const auto weight =
+        static_cast<std::uint16_t>(std::max(1.0F, weights[k] * scale));
+    near_tables_[k]->add_to(grid_, pieces_[k].place, weight);
+    use_work(kWorkPerSumOfGrid *
+             static_cast<double>(near_tables_[k]->coarse_size()));
   }
-  const std::size_t begin = candidates_.size();
-  for (std::int32_t c = 0; c < grid_.columns; ++c) {
-    const auto column = grid_.sums.begin() + c * grid_.rows;
-    const auto least = std::min_element(column, column + grid_.rows);
-    candidates_.push_back(
-        {*least,
-         {turned,
-          {grid_.first.column + c * kStride,
-           grid_.first.row +
-               static_cast<std::int32_t>(least - column) * kStride}}});
-  }
-  work_ -= static_cast<double>(grid_.sums.size()) / 2;
-  const auto first = candidates_.begin() + static_cast<std::ptrdiff_t>(begin);
-  const std::size_t kept = std::min(kCandidates, candidates_.size() - begin);
-  std::partial_sort(
-      first, first + static_cast<std::ptrdiff_t>(kept), candidates_.end(),
-      [](const Candidate& a, const Candidate& b) { return a.price < b.price; });
-  candidates_.resize(begin + kept);
+  use_work(static_cast<double>(grid_.sums.size()) / 2);
 }
 
-// Walks to cheaper neighbours until there is none.
-GuidedSearch::Candidate GuidedSearch::improve(std::size_t i,
-                                              Candidate candidate) {
-  const CellPlace last = last_place(candidate.piece.turned);
-  const CellPlace begin = candidate.piece.place;
+// Keeps the best place of each of the best columns.
+void GuidedSearch::find_candidates(std::size_t i, std::size_t turned) {
+  fill_grid(i, last_place(turned));
+  columns_.clear();
+  const auto column = [&](std::int32_t c) {
+    return std::span(grid_.sums)
+        .subspan(static_cast<std::size_t>(c * grid_.rows),
+                 static_cast<std::size_t>(grid_.rows));
+  };
+  for (std::int32_t c = 0; c < grid_.columns; ++c) {
+    std::uint16_t least = std::numeric_limits<std::uint16_t>::max();
+    for (const std::uint16_t sum : column(c)) least = std::min(least, sum);
+    columns_.emplace_back(least, c);
+  }
+  const auto kept =
+      static_cast<std::ptrdiff_t>(std::min(kCandidates, columns_.size()));
+  std::partial_sort(columns_.begin(), columns_.begin() + kept, columns_.end());
+  candidates_.clear();
+  for (std::ptrdiff_t n = 0; n < kept; ++n) {
+    const auto [least, c] = columns_[static_cast<std::size_t>(n)];
+    const auto sums = column(c);
+    const auto r = static_cast<std::int32_t>(
+        std::find(sums.begin(), sums.end(), least) - sums.begin());
+    candidates_.push_back({turned,
+                           {grid_.first.column + c * NoFitTable::kStride,
+                            grid_.first.row + r * NoFitTable::kStride}});
+  }
+}
+
+// Finds the pieces that the moved one may meet within reach of a place.
+void GuidedSearch::find_near(std::size_t i, CellPlace place) {
   near_.clear();
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     if (k == i) continue;
-    const NoFitTable& table = *near_tables_[k];
-    const CellPlace low = table.low();
-    const CellPlace high = table.high();
-    const std::int32_t column = begin.column - pieces_[k].place.column;
-    const std::int32_t row = begin.row - pieces_[k].place.row;
+    const CellPlace low = near_tables_[k]->low();
+    const CellPlace high = near_tables_[k]->high();
+    const std::int32_t column = place.column - pieces_[k].place.column;
+    const std::int32_t row = place.row - pieces_[k].place.row;
     if (column >= low.column - kReach && column < high.column + kReach &&
         row >= low.row - kReach && row < high.row + kReach) {
       near_.push_back(k);
     }
   }
-  CellPlace& place = candidate.piece.place;
-  candidate.price = price(i, place);
-  for (std::int32_t step = 2; step > 0 && candidate.price > 0;) {
-    CellPlace best = place;
-    for (std::int32_t dc = -step; dc <= step; dc += step) {
-      for (std::int32_t dr = -step; dr <= step; dr += step) {
-        const CellPlace next{place.column + dc, place.row + dr};
-        if (next.column < 0 || next.row < 0 || next.column > last.column ||
-            next.row > last.row ||
-            std::abs(next.column - begin.column) > kReach ||
-            std::abs(next.row - begin.row) > kReach) {
-          continue;
-        }
-        const double here = price(i, next);
-        if (here < candidate.price) {
-          candidate.price = here;
-          best = next;
-        }
+}
+
+// Looks at the eight neighbours so many steps away; moves to the cheapest.
+bool GuidedSearch::take_step(std::size_t i, std::int32_t step, CellPlace low,
+                             CellPlace high, Candidate& candidate) {
+  const CellPlace from = candidate.piece.place;
+  for (std::int32_t x = from.column - step; x <= from.column + step;
+       x += step) {
+    for (std::int32_t y = from.row - step; y <= from.row + step; y += step) {
+      if (x < low.column || y < low.row || x > high.column || y > high.row) {
+        continue;
       }
+      const double here = price(i, {x, y});
+      if (here < candidate.price)
+        candidate = {here, {candidate.piece.turned, {x, y}}};
     }
-    work_ -= 8 * static_cast<double>(near_.size());
-    if (best == place) {
-      --step;
-    } else {
-      place = best;
-    }
+  }
+  use_work(kWorkPerPrice * 8 * static_cast<double>(near_.size()));
+  return !(candidate.piece.place == from);
+}
+
+// Walks to cheaper neighbours until there is none.
+GuidedSearch::Candidate GuidedSearch::improve(std::size_t i,
+                                              LatticePiece piece) {
+  const CellPlace last = last_place(piece.turned);
+  const CellPlace begin = piece.place;
+  const CellPlace low{std::max(0, begin.column - kReach),
+                      std::max(0, begin.row - kReach)};
+  const CellPlace high{std::min(last.column, begin.column + kReach),
+                       std::min(last.row, begin.row + kReach)};
+  find_near(i, begin);
+  Candidate candidate{price(i, begin), piece};
+  for (std::int32_t step = 2; step > 0 && candidate.price > 0;) {
+    if (!take_step(i, step, low, high, candidate)) --step;
   }
   return candidate;
 }
 
-bool GuidedSearch::move(std::size_t i) {
+void GuidedSearch::move(std::size_t i) {
   find_tables(i, pieces_[i].turned);
-  Candidate best = improve(i, {0, pieces_[i]});
-  const std::size_t piece = pieces_[i].turned / turns_;
+  Candidate best = improve(i, pieces_[i]);
+  const std::size_t first = pieces_[i].turned / turns_ * turns_;
   for (unsigned turn = 0; turn < turns_ && best.price > 0; ++turn) {
-    const std::size_t turned = piece * turns_ + turn;
-    find_tables(i, turned);
-    candidates_.clear();
-    add_candidates(i, turned);
-    for (const Candidate& candidate : candidates_) {
-      if (candidate.price > 4 * best.price + 40) continue;
+    if (!fits(first + turn)) continue;
+    find_tables(i, first + turn);
+    find_candidates(i, first + turn);
+    for (const LatticePiece& candidate : candidates_) {
       const Candidate better = improve(i, candidate);
       if (better.price < best.price) best = better;
     }
   }
-  const bool moves = !(best.piece.place == pieces_[i].place) ||
-                     best.piece.turned != pieces_[i].turned;
   pieces_[i] = best.piece;
-  return moves;
+}
+
+// The larger one of two pieces that are drawn.
+std::size_t GuidedSearch::draw_large() {
+  const std::size_t i = random_below(pieces_.size());
+  const std::size_t k = random_below(pieces_.size());
+  const auto extent = [&](std::size_t piece) {
+    const Vec2 size = turned_[pieces_[piece].turned].size();
+    return size.x * size.y;
+  };
+  return extent(k) > extent(i) ? k : i;
 }
 
 void GuidedSearch::exchange_two() {
-  const std::size_t i = random_below(pieces_.size());
-  const std::size_t k = random_below(pieces_.size());
+  const std::size_t i = draw_large();
+  std::size_t k = draw_large();
+  const auto is_like = [&] {
+    return pieces_[k].turned / turns_ == pieces_[i].turned / turns_;
+  };
+  for (int draws = 0; draws < kDraws && is_like(); ++draws) k = draw_large();
   std::swap(pieces_[i].place, pieces_[k].place);
   keep_inside(pieces_[i]);
   keep_inside(pieces_[k]);

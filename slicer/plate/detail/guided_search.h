@@ -23,6 +23,7 @@
 #include <random>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -38,15 +39,15 @@ class NoFitTables {
 
   const NoFitTable& of(std::size_t a, std::size_t b);
   double step() const { return step_; }
-  // How many entries tables have that were made so far.
-  std::size_t entries() const { return entries_; }
+  // What it took to make the tables so far, as GuidedSearch counts it.
+  double work() const { return work_; }
 
  private:
   const std::vector<plane::Contour>& parts_of(std::size_t turned);
 
   std::span<const TurnedPiece> turned_;
   double step_;
-  std::size_t entries_ = 0;
+  double work_ = 0;
   std::vector<std::vector<plane::Contour>> parts_;  // empty until they are cut
   std::unordered_map<std::size_t, std::unique_ptr<NoFitTable>> tables_;
 };
@@ -64,7 +65,7 @@ class GuidedSearch {
                NoFitTables& tables, std::uint32_t seed)
       : turned_(turned), turns_(turns), tables_(tables), random_(seed) {}
 
-  // The area within which pieces lie [mm].
+  // The area within which pieces lie; each fits it in one of its turns [mm].
   void set_area(Vec2 area) { area_ = area; }
   // Forgets all weights.
   void set_pieces(std::vector<LatticePiece> pieces);
@@ -75,20 +76,22 @@ class GuidedSearch {
   //
   // patience  how many rounds in turn
   bool separate(std::size_t patience);
+  // The pieces of the round with the least overlap.
+  const std::vector<LatticePiece>& least_overlap() const {
+    return least_overlap_;
+  }
 
   // Exchanges the places of two pieces that differ.
   void exchange_two();
   // Shifts pieces behind a random column to the left, by so many columns.
   void shift_left(std::int32_t columns);
 
-  // How many numbers may be looked at. The search ends when they are used up:
-  // unlike seconds, this gives the same result on every machine.
-  void set_work(double work) { work_ = work; }
-  double work() const { return work_; }
-
-  std::uint32_t random_below(std::size_t count) {
-    return static_cast<std::uint32_t>(random_() % count);
-  }
+  // How many numbers may be looked at: about one in a nanosecond. The search
+  // ends when they are used up: unlike seconds, this gives the same result on
+  // every machine.
+  void set_work(double work) { most_work_ = work + tables_.work(); }
+  // What is left of it.
+  double work() const { return most_work_ - used_work_ - tables_.work(); }
 
  private:
   struct Candidate {
@@ -96,33 +99,46 @@ class GuidedSearch {
     LatticePiece piece;
   };
 
+  void use_work(double work) { used_work_ += work; }
   CellPlace last_place(std::size_t turned) const;
+  bool fits(std::size_t turned) const;
+  // Turns the piece if it does not fit, and moves it into the area.
   void keep_inside(LatticePiece& piece) const;
-  float& weight(std::size_t i, std::size_t k) {
-    return weights_[i * pieces_.size() + k];
-  }
   std::uint8_t depth(std::size_t i, std::size_t k);
   double measure();
   void raise_weights();
-  bool move(std::size_t i);
+  std::vector<std::size_t> draw_order();
+  void move(std::size_t i);
   void find_tables(std::size_t i, std::size_t turned);
-  void add_candidates(std::size_t i, std::size_t turned);
-  Candidate improve(std::size_t i, Candidate candidate);
+  void fill_grid(std::size_t i, CellPlace last);
+  void find_candidates(std::size_t i, std::size_t turned);
+  void find_near(std::size_t i, CellPlace place);
   double price(std::size_t i, CellPlace place) const;
+  bool take_step(std::size_t i, std::int32_t step, CellPlace low,
+                 CellPlace high, Candidate& candidate);
+  Candidate improve(std::size_t i, LatticePiece piece);
+  std::size_t draw_large();
+  std::uint32_t random_below(std::size_t count) {
+    return static_cast<std::uint32_t>(random_() % count);
+  }
 
   std::span<const TurnedPiece> turned_;
   unsigned turns_;
   NoFitTables& tables_;
   std::mt19937 random_;
   Vec2 area_ = Vec2(0);
-  double work_ = 0;
+  double most_work_ = 0;
+  double used_work_ = 0;
   std::vector<LatticePiece> pieces_;
+  std::vector<LatticePiece> least_overlap_;
   std::vector<float> weights_;        // of pairs, both ways
   std::vector<std::uint8_t> depths_;  // of pairs, both ways
   CoarseGrid grid_;
   std::vector<const NoFitTable*> near_tables_;  // of piece k and the moved one
   std::vector<std::size_t> near_;               // pieces in reach
-  std::vector<Candidate> candidates_;
+  std::vector<LatticePiece> candidates_;
+  // The least sum of each column of the grid.
+  std::vector<std::pair<std::uint16_t, std::int32_t>> columns_;
 };
 
 }  // namespace lamina::slicer

@@ -169,7 +169,8 @@ NoFitTable NoFitTable::reversed() const {
   return other;
 }
 
-void NoFitTable::add_to(CoarseGrid& grid, CellPlace at, float weight) const {
+void NoFitTable::add_to(CoarseGrid& grid, CellPlace at,
+                        std::uint16_t weight) const {
   const auto divide = [](std::int32_t number) {
     return (number - (number & (kStride - 1))) / kStride;
   };
@@ -186,12 +187,14 @@ void NoFitTable::add_to(CoarseGrid& grid, CellPlace at, float weight) const {
   const auto count = static_cast<std::size_t>(end_row - first_row);
   const std::int32_t end_column = std::min(grid.columns, columns_ - u0);
   for (std::int32_t i = std::max(0, -u0); i < end_column; ++i) {
-    float* sums =
+    std::uint16_t* sums =
         &grid.sums[static_cast<std::size_t>(i * grid.rows + first_row)];
     const std::uint8_t* depths = &depths_[static_cast<std::size_t>(
         (plane * columns_ + u0 + i) * rows_ + v0 + first_row)];
     for (std::size_t k = 0; k < count; ++k) {
-      sums[k] += weight * static_cast<float>(depths[k]);
+      const auto price = static_cast<std::uint16_t>(weight * depths[k]);
+      const auto room = static_cast<std::uint16_t>(~sums[k]);
+      sums[k] = static_cast<std::uint16_t>(sums[k] + std::min(price, room));
     }
   }
 }

@@ -29,7 +29,7 @@ struct CoarseGrid {
   CellPlace first;
   std::int32_t columns = 0;
   std::int32_t rows = 0;
-  std::vector<float> sums;  // columns × rows, column by column
+  std::vector<std::uint16_t> sums;  // columns × rows, column by column
 };
 
 class NoFitTable {
@@ -58,8 +58,9 @@ class NoFitTable {
     return depths_[(plane * c + u / kStride) * r + v / kStride];
   }
 
-  // Adds `weight` times the depth at each place of the grid. a lies at `at`.
-  void add_to(CoarseGrid& grid, CellPlace at, float weight) const;
+  // Adds `weight`, up to 256, times the depth at each place of the grid, as far
+  // as a sum can grow. a lies at `at`.
+  void add_to(CoarseGrid& grid, CellPlace at, std::uint16_t weight) const;
 
   // Displacements from `low` on, before `high`, may overlap.
   CellPlace low() const { return low_; }
@@ -67,6 +68,8 @@ class NoFitTable {
     return {low_.column + columns_ * kStride, low_.row + rows_ * kStride};
   }
   std::size_t size() const { return depths_.size(); }
+  // Of one of the coarser lattices.
+  std::size_t coarse_size() const { return size() / kStride / kStride; }
 
  private:
   // Of the displacement `low` + (u, v).

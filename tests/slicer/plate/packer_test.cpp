@@ -47,6 +47,7 @@ TEST(PackPlates, RandomPiecesKeepAllPromises) {
     plate.margin = 0.5 * number(random, 5);
     plate.turns = 1 + static_cast<unsigned>(number(random, 9));
     plate.most_plates = random() % 4;
+    plate.work = 20;
     const PlatePlan plan = pack_plates(pieces, plate);
     ASSERT_EQ(faults_of(pieces, plate, plan), "") << "seed " << seed;
   }
