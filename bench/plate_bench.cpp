@@ -2,7 +2,9 @@
 // the irregular strip packing problem, and how long it takes for rings.
 //
 //   plate_bench strip FILE WORK      one line: pieces, length, density, seconds
-//   plate_bench rings COUNT WORK     one line: plates, seconds
+//   plate_bench rings COUNT WORK     one line: rings, plates, seconds
+//   plate_bench footprint LAYERS CORNERS
+//                                    one line: layers, corners left, seconds
 //
 // FILE is an instance as sparrow reads it. Densities count only where the exact
 // check finds no pieces too near to each other.
@@ -139,6 +141,30 @@ int measure_rings(std::size_t count, double work) {
   return EXIT_SUCCESS;
 }
 
+// Layers of a wavy ring that changes from layer to layer.
+int measure_footprint(int layers, int corners) {
+  std::vector<Layer> stack(static_cast<std::size_t>(layers));
+  for (int i = 0; i < layers; ++i) {
+    plane::Region region;
+    region.contours.resize(2);
+    for (int k = 0; k < corners / 2; ++k) {
+      const double angle = 4 * std::numbers::pi * k / corners;
+      const Vec2 direction(std::cos(angle), std::sin(angle));
+      const double wave = 0.3 * std::sin(7 * angle + 0.02 * i);
+      const double radius = 8 + 2 * std::sin(0.01 * i) + wave;
+      region.contours[0].push_back(radius * direction);
+      region.contours[1].insert(region.contours[1].begin(),
+                                (radius - 1.5) * direction);
+    }
+    stack[static_cast<std::size_t>(i)].contours = plane::to_contours(region);
+  }
+  plane::Region footprint;
+  const double seconds =
+      wall_seconds_of([&] { footprint = footprint_of(stack); });
+  fmt::print("{} {} {:.3f}\n", layers, plane::corner_count(footprint), seconds);
+  return EXIT_SUCCESS;
+}
+
 }  // namespace
 }  // namespace lamina::slicer
 
@@ -151,7 +177,12 @@ int main(int count, char** arguments) {
     return lamina::slicer::measure_rings(std::stoul(words[1]),
                                          std::stod(words[2]));
   }
+  if (words.size() == 3 && words[0] == "footprint") {
+    return lamina::slicer::measure_footprint(std::stoi(words[1]),
+                                             std::stoi(words[2]));
+  }
   fmt::print(stderr,
-             "plate_bench strip FILE WORK | plate_bench rings COUNT WORK\n");
+             "plate_bench strip FILE WORK | rings COUNT WORK | "
+             "footprint LAYERS CORNERS\n");
   return 2;
 }

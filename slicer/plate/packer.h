@@ -44,7 +44,7 @@ struct Plate {
   // How many million numbers the guided local search may look at, about a
   // second for a thousand; 0: none. Unlike seconds, it gives the same plan on
   // every machine.
-  double work = 1000;
+  double work = 500;
 };
 
 // Where a copy lies: turned about the origin, then shifted (place() of

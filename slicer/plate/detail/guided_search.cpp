@@ -16,6 +16,9 @@ constexpr float kDecay = 0.95F;
 constexpr float kLeastRaise = 1.2F;
 constexpr float kGreatestRaise = 2.0F;
 
+// No sum of prices comes near to what a float holds.
+constexpr float kGreatestWeight = 1e9F;
+
 // What it takes to make a table: for each entry, and for each sum of two convex
 // parts.
 constexpr double kWorkPerEntry = 8;

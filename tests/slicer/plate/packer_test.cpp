@@ -124,6 +124,40 @@ TEST(PackPlates, NoPiecesAndNoCopiesNeedNoPlate) {
   EXPECT_EQ(pack_plates(pieces, {.size = {40, 20}}).plates, 0U);
 }
 
+TEST(PackPlates, TheSearchSavesAPlate) {
+  int saved = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<Piece> pieces;
+    while (pieces.size() < 10 + seed % 8) {
+      pieces.push_back({random_star(random, 12), 10, 1});
+    }
+    Plate plate{.size = {60, 50}, .gap = 1, .work = 0};
+    const std::size_t before = pack_plates(pieces, plate).plates;
+    plate.work = 100;
+    const PlatePlan plan = pack_plates(pieces, plate);
+    EXPECT_EQ(faults_of(pieces, plate, plan), "") << "seed " << seed;
+    EXPECT_LE(plan.plates, before);
+    if (plan.plates < before) ++saved;
+  }
+  EXPECT_GE(saved, 1);
+}
+
+TEST(PackPlates, TheSearchFindsRoomForWhatWasLeftOver) {
+  std::mt19937 random(4);
+  std::size_t fewer = 0;
+  for (int round = 0; round < 10; ++round) {
+    const std::vector<Piece> pieces = {{random_star(random, 9), 1, 30}};
+    Plate plate{.size = {60, 50}, .gap = 1, .most_plates = 1, .work = 0};
+    const std::size_t before = pack_plates(pieces, plate).left_over[0];
+    plate.work = 100;
+    const PlatePlan plan = pack_plates(pieces, plate);
+    EXPECT_EQ(faults_of(pieces, plate, plan), "");
+    fewer += before - plan.left_over[0];
+  }
+  EXPECT_GE(fewer, 5U);
+}
+
 TEST(PackPlates, TheNumberOfThreadsChangesNothing) {
   std::mt19937 random(7);
   std::vector<Piece> pieces;
