@@ -22,19 +22,17 @@ void add_edge(Vec2 from, Vec2 to, double tie, std::vector<Column>& columns) {
   const bool is_upright = right.x - left.x <= tie;
   const double slope = is_upright ? 0 : (right.y - left.y) / (right.x - left.x);
   const auto y_at = [&](double x) { return left.y + slope * (x - left.x); };
-  const double last = std::ceil(right.x - tie) - 1;
-  for (double x = std::floor(left.x + tie); x <= last; ++x) {
-    Column& column = columns[static_cast<std::size_t>(x)];
-    const double y0 = is_upright ? left.y : y_at(std::max(left.x, x));
-    const double y1 = is_upright ? right.y : y_at(std::min(right.x, x + 1));
+  const auto first = static_cast<std::int32_t>(std::floor(left.x + tie));
+  const auto end = static_cast<std::int32_t>(std::ceil(right.x - tie));
+  for (std::int32_t i = first; i < end; ++i) {
+    Column& column = columns[static_cast<std::size_t>(i)];
+    const double y0 = is_upright ? left.y : y_at(std::max<double>(left.x, i));
+    const double y1 =
+        is_upright ? right.y : y_at(std::min<double>(right.x, i + 1));
     column.stretches.emplace_back(std::min(y0, y1), std::max(y0, y1));
-  }
-  // An upright edge may pass the middle, too.
-  const double middle = std::floor(right.x + 0.5) - 0.5;
-  for (double x = middle; x >= left.x; --x) {
-    if (x < right.x && x >= 0) {
-      columns[static_cast<std::size_t>(x)].crossings.push_back(
-          is_upright ? left.y : y_at(x));
+    const double middle = i + 0.5;
+    if (left.x <= middle && middle < right.x) {
+      column.crossings.push_back(is_upright ? left.y : y_at(middle));
     }
   }
 }

@@ -19,15 +19,15 @@ constexpr float kGreatestRaise = 2.0F;
 // No sum of prices comes near to what a float holds.
 constexpr float kGreatestWeight = 1e9F;
 
-// What it takes to make a table: for each entry, and for each sum of two convex
+// What it takes to make a table: for each entry, and for each pair of convex
 // parts.
 constexpr double kWorkPerEntry = 8;
-constexpr double kWorkPerSum = 1000;
+constexpr double kWorkPerPair = 1000;
 
 // What it takes to look at an entry of a table by itself, and at one of those
 // that follow each other.
 constexpr double kWorkPerPrice = 2;
-constexpr double kWorkPerSumOfGrid = 0.25;
+constexpr double kWorkPerGridSum = 0.25;
 
 // So many places of each turn are improved.
 constexpr std::size_t kCandidates = 3;
@@ -36,7 +36,8 @@ constexpr std::size_t kCandidates = 3;
 // same.
 constexpr int kDraws = 8;
 
-// The greatest weight on the coarse grid.
+// Weights are scaled to at most this on the coarse grid, whose sums have 16
+// bits: four deep overlaps of that weight fill them.
 constexpr float kGreatestGridWeight = 64;
 
 // A candidate is improved within so many steps, in each direction.
@@ -58,19 +59,18 @@ const std::vector<plane::Contour>& NoFitTables::parts_of(std::size_t turned) {
 
 const NoFitTable& NoFitTables::of(std::size_t a, std::size_t b) {
   std::unique_ptr<NoFitTable>& table = tables_[a * turned_.size() + b];
-  if (!table) {
-    table = std::make_unique<NoFitTable>(parts_of(a), parts_of(b), step_);
-    work_ += kWorkPerEntry * static_cast<double>(table->size()) +
-             kWorkPerSum *
-                 static_cast<double>(parts_of(a).size() * parts_of(b).size());
-    if (a != b) {
-      const NoFitTable& made = *table;
-      tables_[b * turned_.size() + a] =
-          std::make_unique<NoFitTable>(made.reversed());
-      return made;
-    }
+  if (table) return *table;
+  const std::vector<plane::Contour>& a_parts = parts_of(a);
+  const std::vector<plane::Contour>& b_parts = parts_of(b);
+  table = std::make_unique<NoFitTable>(a_parts, b_parts, step_);
+  work_ += kWorkPerEntry * static_cast<double>(table->size()) +
+           kWorkPerPair * static_cast<double>(a_parts.size() * b_parts.size());
+  const NoFitTable& made = *table;
+  if (a != b) {
+    tables_[b * turned_.size() + a] =
+        std::make_unique<NoFitTable>(made.reversed());
   }
-  return *table;
+  return made;
 }
 
 CellPlace GuidedSearch::last_place(std::size_t turned) const {
@@ -130,8 +130,9 @@ void GuidedSearch::raise_weights() {
     if (depths_[i] == 0) {
       weights_[i] = std::max(1.0F, weights_[i] * kDecay);
     } else {
-      weights_[i] *= kLeastRaise +
-                     (kGreatestRaise - kLeastRaise) * (depths_[i] / greatest);
+      const float raise = kLeastRaise + (kGreatestRaise - kLeastRaise) *
+                                            (depths_[i] / greatest);
+      weights_[i] = std::min(kGreatestWeight, weights_[i] * raise);
     }
   }
 }
@@ -200,7 +201,7 @@ void GuidedSearch::fill_grid(std::size_t i, CellPlace last) {
   grid_.first = {phase(last.column), phase(last.row)};
   grid_.columns = (last.column - grid_.first.column) / kStride + 1;
   grid_.rows = (last.row - grid_.first.row) / kStride + 1;
-  grid_.sums.assign(static_cast<std::size_t>(grid_.columns * grid_.rows), 0);
+  grid_.sums.assign(column_index(grid_.columns, grid_.rows, 0), 0);
   const auto weights =
       std::span(weights_).subspan(i * pieces_.size(), pieces_.size());
   const float scale =
@@ -210,7 +211,7 @@ void GuidedSearch::fill_grid(std::size_t i, CellPlace last) {
     const auto weight =
         static_cast<std::uint16_t>(std::max(1.0F, weights[k] * scale));
     near_tables_[k]->add_to(grid_, pieces_[k].place, weight);
-    use_work(kWorkPerSumOfGrid *
+    use_work(kWorkPerGridSum *
              static_cast<double>(near_tables_[k]->coarse_size()));
   }
   use_work(static_cast<double>(grid_.sums.size()) / 2);
@@ -222,7 +223,7 @@ void GuidedSearch::find_candidates(std::size_t i, std::size_t turned) {
   columns_.clear();
   const auto column = [&](std::int32_t c) {
     return std::span(grid_.sums)
-        .subspan(static_cast<std::size_t>(c * grid_.rows),
+        .subspan(column_index(c, grid_.rows, 0),
                  static_cast<std::size_t>(grid_.rows));
   };
   for (std::int32_t c = 0; c < grid_.columns; ++c) {
@@ -272,8 +273,9 @@ bool GuidedSearch::take_step(std::size_t i, std::int32_t step, CellPlace low,
         continue;
       }
       const double here = price(i, {x, y});
-      if (here < candidate.price)
+      if (here < candidate.price) {
         candidate = {here, {candidate.piece.turned, {x, y}}};
+      }
     }
   }
   use_work(kWorkPerPrice * 8 * static_cast<double>(near_.size()));

@@ -89,7 +89,9 @@ class GuidedSearch {
   // How many numbers may be looked at: about one in a nanosecond. The search
   // ends when they are used up: unlike seconds, this gives the same result on
   // every machine.
-  void set_work(double work) { most_work_ = work + tables_.work(); }
+  void set_work(double work) {
+    most_work_ = work + used_work_ + tables_.work();
+  }
   // What is left of it.
   double work() const { return most_work_ - used_work_ - tables_.work(); }
 

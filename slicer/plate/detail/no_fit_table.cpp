@@ -85,8 +85,7 @@ class Samples {
 
  private:
   std::size_t index(std::int32_t i, std::int32_t k) const {
-    return static_cast<std::size_t>(i) * static_cast<std::size_t>(rows_) +
-           static_cast<std::size_t>(k);
+    return column_index(i, rows_, k);
   }
 
   // Notes where an edge passes columns of the lattice.
@@ -148,16 +147,15 @@ NoFitTable::NoFitTable(std::span<const plane::Contour> a,
   depths_.resize(samples.depths().size());
   for (std::int32_t u = 0; u < columns_ * kStride; ++u) {
     for (std::int32_t v = 0; v < rows_ * kStride; ++v) {
-      at(u, v) =
-          samples.depths()[static_cast<std::size_t>(u * rows_ * kStride + v)];
+      at(u, v) = samples.depths()[column_index(u, rows_ * kStride, v)];
     }
   }
 }
 
 std::uint8_t& NoFitTable::at(std::int32_t u, std::int32_t v) {
   const std::int32_t plane = u % kStride * kStride + v % kStride;
-  return depths_[static_cast<std::size_t>(
-      (plane * columns_ + u / kStride) * rows_ + v / kStride)];
+  return depths_[column_index(plane * columns_ + u / kStride, rows_,
+                              v / kStride)];
 }
 
 NoFitTable NoFitTable::reversed() const {
@@ -187,10 +185,9 @@ void NoFitTable::add_to(CoarseGrid& grid, CellPlace at,
   const auto count = static_cast<std::size_t>(end_row - first_row);
   const std::int32_t end_column = std::min(grid.columns, columns_ - u0);
   for (std::int32_t i = std::max(0, -u0); i < end_column; ++i) {
-    std::uint16_t* sums =
-        &grid.sums[static_cast<std::size_t>(i * grid.rows + first_row)];
-    const std::uint8_t* depths = &depths_[static_cast<std::size_t>(
-        (plane * columns_ + u0 + i) * rows_ + v0 + first_row)];
+    std::uint16_t* sums = &grid.sums[column_index(i, grid.rows, first_row)];
+    const std::uint8_t* depths = &depths_[column_index(
+        plane * columns_ + u0 + i, rows_, v0 + first_row)];
     for (std::size_t k = 0; k < count; ++k) {
       const auto price = static_cast<std::uint16_t>(weight * depths[k]);
       const auto room = static_cast<std::uint16_t>(~sums[k]);

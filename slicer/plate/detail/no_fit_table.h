@@ -24,6 +24,13 @@
 
 namespace lamina::slicer {
 
+// Where a number stands in an array of columns of so many rows.
+inline std::size_t column_index(std::int32_t column, std::int32_t rows,
+                                std::int32_t row) {
+  return static_cast<std::size_t>(column) * static_cast<std::size_t>(rows) +
+         static_cast<std::size_t>(row);
+}
+
 // Every fourth place in each direction, and what is added up at each.
 struct CoarseGrid {
   CellPlace first;
