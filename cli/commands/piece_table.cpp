@@ -105,29 +105,6 @@ class TableFile {
   std::optional<std::string> bytes_;
 };
 
-// The variables that the design lets others set. Its warnings come with its
-// pieces.
-Variables variables_of(const compiler::Request& request,
-                       const FileAccess& access, SourceStore& sources,
-                       Diagnostics& diagnostics) {
-  Diagnostics messages([&](const Diagnostic& message) {
-    if (message.severity == Severity::kError) diagnostics.report(message);
-  });
-  Loader loader(sources, messages, library_folders(access),
-                request.design.definitions, access);
-  return find_variables(loader.load(request.design.path), loader);
-}
-
-// Whether it is the name of a variable such as $fn, which a design need not
-// mention. What else begins with '$' may be code.
-bool is_special_variable(std::string_view name) {
-  return name.size() > 1 && name[0] == '$' &&
-         std::all_of(name.begin() + 1, name.end(), [](char c) {
-           return c == '_' || (c >= '0' && c <= '9') ||
-                  (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-         });
-}
-
 struct Column {
   std::string name;
   std::optional<ast::ValueType> variable;  // that it sets
@@ -442,6 +419,25 @@ std::unique_ptr<Rows> open_rows(const TableOptions& options,
 }
 
 }  // namespace
+
+Variables variables_of(const compiler::Request& request,
+                       const FileAccess& access, SourceStore& sources,
+                       Diagnostics& diagnostics) {
+  Diagnostics messages([&](const Diagnostic& message) {
+    if (message.severity == Severity::kError) diagnostics.report(message);
+  });
+  Loader loader(sources, messages, library_folders(access),
+                request.design.definitions, access);
+  return find_variables(loader.load(request.design.path), loader);
+}
+
+bool is_special_variable(std::string_view name) {
+  return name.size() > 1 && name[0] == '$' &&
+         std::all_of(name.begin() + 1, name.end(), [](char c) {
+           return c == '_' || (c >= '0' && c <= '9') ||
+                  (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+         });
+}
 
 std::unique_ptr<PieceSource> open_table(const TableOptions& options,
                                         const FileAccess& access,

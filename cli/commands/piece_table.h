@@ -17,12 +17,14 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
 #include "base/source.h"
 #include "cli/commands/pieces.h"
 #include "compiler/request.h"
+#include "parser/customizer/definitions.h"
 
 namespace lamina::cli {
 
@@ -57,5 +59,15 @@ std::unique_ptr<PieceSource> open_table(const TableOptions& options,
                                         const FileAccess& access,
                                         SourceStore& sources,
                                         Diagnostics& diagnostics);
+
+// The variables that the design lets others set. Its errors go to
+// `diagnostics`; its warnings come with its pieces.
+Variables variables_of(const compiler::Request& request,
+                       const FileAccess& access, SourceStore& sources,
+                       Diagnostics& diagnostics);
+
+// Whether it is the name of a variable such as $fn, which a design need not
+// mention. What else begins with '$' may be code.
+bool is_special_variable(std::string_view name);
 
 }  // namespace lamina::cli

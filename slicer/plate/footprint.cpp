@@ -68,15 +68,14 @@ plane::Region footprint_of(std::span<const Layer> layers, double tolerance) {
                        tolerance / 4);
 }
 
+PlateMotion::PlateMotion(double turn_deg, Vec2 shift)
+    : x_axis_(direction_of(turn_deg)), shift_(shift) {}
+
 plane::Region place(const plane::Region& region, double turn_deg, Vec2 shift) {
-  const Vec2 x_axis = direction_of(turn_deg);
+  const PlateMotion motion(turn_deg, shift);
   plane::Region placed = region;
   for (plane::Contour& contour : placed.contours) {
-    for (Vec2& p : contour) {
-      p = Vec2(x_axis.x * p.x - x_axis.y * p.y,
-               x_axis.y * p.x + x_axis.x * p.y) +
-          shift;
-    }
+    for (Vec2& p : contour) p = motion(p);
   }
   return placed;
 }

@@ -23,6 +23,23 @@ namespace lamina::slicer {
 plane::Region footprint_of(std::span<const Layer> layers,
                            double tolerance = 0.01);
 
+// A turn about the origin, counter-clockwise, then a shift [mm]. Quarter turns
+// are exact.
+class PlateMotion {
+ public:
+  PlateMotion(double turn_deg, Vec2 shift);
+
+  Vec2 operator()(Vec2 p) const {
+    return Vec2(x_axis_.x * p.x - x_axis_.y * p.y,
+                x_axis_.y * p.x + x_axis_.x * p.y) +
+           shift_;
+  }
+
+ private:
+  Vec2 x_axis_;
+  Vec2 shift_;
+};
+
 // Returns the region turned about the origin, counter-clockwise, then shifted
 // [mm]. Quarter turns are exact.
 plane::Region place(const plane::Region& region, double turn_deg, Vec2 shift);

@@ -1,0 +1,81 @@
+#include "compiler/plates.h"
+
+#include <utility>
+
+#include "compiler/compile.h"
+#include "compiler/layer_output.h"
+#include "compiler/machine.h"
+#include "compiler/passes.h"
+#include "slicer/contour/layer_measures.h"
+#include "slicer/plate/plate_layers.h"
+
+namespace lamina::compiler {
+namespace {
+
+// Measures layers on their way to a sink.
+class MeasuringSink : public slicer::LayerSink {
+ public:
+  MeasuringSink(slicer::LayerSink& sink, slicer::SliceReport& report)
+      : sink_(sink), report_(report) {}
+
+  void begin(const Box3& box) override { sink_.begin(box); }
+  void expect(std::uint32_t layers) override { sink_.expect(layers); }
+  std::string encode(const slicer::Layer& layer) const override {
+    return sink_.encode(layer);
+  }
+  void take(const slicer::Layer& layer) override { take_encoded(layer, {}); }
+  void take_encoded(const slicer::Layer& layer,
+                    const std::string& encoded) override {
+    report_.add(slicer::measure(layer.contours), layer.bottom, layer.top);
+    sink_.take_encoded(layer, encoded);
+  }
+
+ private:
+  slicer::LayerSink& sink_;
+  slicer::SliceReport& report_;
+};
+
+}  // namespace
+
+std::optional<PlatedPiece> slice_for_plates(Compilation& c) {
+  c.report.machine = choose_machine(c.request.output, c.file_access());
+  const auto lowered = make_geometry(c);
+  if (!lowered) return std::nullopt;
+  if (lowered->scene() == nullptr) {
+    throw GeometryError("The design is flat: plates take solids");
+  }
+  const slicer::Settings settings = settings_of(c.request, c.report.machine);
+  const auto grid = ldni::LayerGrid::uniform(0, lowered->scene()->box.high.z,
+                                             settings.layer_thickness);
+  slicer::LayerList list;
+  PlatedPiece piece;
+  piece.slice =
+      slice(*lowered, grid, settings, list, c.on_progress, c.diagnostics);
+  piece.layers = std::move(list.layers);
+  return piece;
+}
+
+Report write_plate(const Request& request,
+                   std::span<const std::vector<slicer::Layer>> pieces,
+                   std::span<const slicer::SliceReport> slices,
+                   std::vector<slicer::Placement> placements,
+                   TemporaryFiles& files, Diagnostics& diagnostics) {
+  Report report;
+  report.machine = choose_machine(request.output, files.file_access());
+  for (const slicer::Placement& placement : placements) {
+    const auto& supports = slices[placement.piece].supports;
+    if (!supports) continue;
+    if (!report.slice.supports) report.slice.supports.emplace();
+    report.slice.supports->volume += supports->volume;
+  }
+  LayerOutput output =
+      LayerOutput::open(request, report.machine, files, diagnostics);
+  MeasuringSink sink(output.sink(), report.slice);
+  slicer::PlateLayers(pieces, std::move(placements),
+                      request.job.layer_thickness)
+      .send_to(sink);
+  output.finish(diagnostics, report);
+  return report;
+}
+
+}  // namespace lamina::compiler
