@@ -107,8 +107,9 @@ csg::LowerOptions lower_options(const GeometryRequest& request,
 }
 
 // What would go wrong if the scene were printed as it stands.
-std::string problems_of(const csg::Scene& scene,
-                        const slicer::Settings& settings) {
+std::string problems_of(const csg::Scene& scene, slicer::Settings settings) {
+  settings.min_feature = 0;
+  settings.finds_makers = false;
   slicer::LayerDrain sink;
   Diagnostics unshown;  // the run itself will say it
   const auto report = slicer::slice(scene, slicer::plan_layers(scene, settings),
@@ -124,13 +125,10 @@ slicer::OrientationChoice choose_orientation(const csg::Scene& scene,
   slicer::OrientationChoice choice = slicer::choose_orientation(
       scene, settings.layer_thickness,
       machine.printer ? machine.printer->build_volume() : Vec3(kAny));
-  // As drawn, and as chosen: each costs a slicing.
-  for (const std::size_t i : {std::size_t{0}, choice.best}) {
-    slicer::Orientation& orientation = choice.all[i];
-    if (!orientation.fits || orientation.size.z == 0) continue;
-    csg::Scene turned = scene;
-    csg::move_scene(turned, slicer::turn_to_axis(orientation.axis), Vec3(0));
-    orientation.problems = problems_of(turned, settings);
+  // As chosen the run itself will say it. As drawn it costs a slicing.
+  slicer::Orientation& drawn = choice.all.front();
+  if (choice.best != 0 && drawn.fits && drawn.size.z > 0) {
+    drawn.problems = problems_of(scene, settings);
   }
   return choice;
 }

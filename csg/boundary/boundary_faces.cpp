@@ -12,6 +12,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "csg/boundary/detail/scan_lines.h"
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
 #include "csg/mesh/box_tree.h"
@@ -34,9 +35,6 @@ Box3 expand(const Box3& box) {
   return {box.low - kMargin, box.high + kMargin};
 }
 
-using IsWanted = std::function<bool(const Box3&)>;
-using Take = std::function<void(BoundaryFace)>;
-
 // Returns the instances, those first whose boxes' middles are farthest from the
 // scene's.
 std::vector<std::uint32_t> outermost_first(const Scene& scene) {
@@ -54,26 +52,33 @@ std::vector<std::uint32_t> outermost_first(const Scene& scene) {
   return instances;
 }
 
-class Finder {
+}  // namespace
+
+class BoundaryFinder::Search {
  public:
-  Finder(const Scene& scene, const IsWanted& is_wanted, const Take& take)
+  explicit Search(const Scene& scene)
       : scene_(scene),
-        is_wanted_(is_wanted),
-        take_(take),
         state_(program_of(scene)),
-        program_(program_of(scene), plane::Ternary::kFalse) {
+        program_(program_of(scene), plane::Ternary::kFalse),
+        leaves_(scene.instances.size()),
+        outside_(state_) {
     for (const Instance& instance : scene.instances) {
-      leaves_.emplace_back(scene.leaves[instance.leaf],
-                           instance.world_from_leaf);
       boxes_.push_back(expand(instance.box));
     }
   }
 
-  void find() {
+  // Visits the faces that are wanted.
+  //
+  // open  gets those that are open; null where they are to be solved at once
+  void find(const IsWanted& is_wanted, const TakeFace& take,
+            std::vector<OpenFace>* open) {
+    is_wanted_ = &is_wanted;
+    take_ = &take;
+    open_ = open;
     const BoxTree tree(boxes_);
     for (const std::uint32_t instance : outermost_first(scene_)) {
       self_ = instance;
-      if (!is_wanted_(boxes_[self_]) || leaf().tree.nodes().empty()) continue;
+      if (!is_wanted(boxes_[self_]) || leaf().tree.nodes().empty()) continue;
       std::vector<std::uint32_t> near;
       tree.visit([&](const Box3& box) { return do_meet(box, boxes_[self_]); },
                  [&](std::uint32_t other) {
@@ -88,8 +93,50 @@ class Finder {
     }
   }
 
+  void solve(const OpenFace& face, const TakeFace& take) {
+    take_ = &take;
+    with_known(face, [&] { cut(face.face, face.normal, face.others); });
+  }
+
+  MeasuredFace measure(const OpenFace& face) {
+    MeasuredFace measured;
+    with_known(face, [&] { measured = scan(face); });
+    return measured;
+  }
+
  private:
-  const PlacedLeaf& leaf() const { return leaves_[self_]; }
+  // Does the work while all is known that was when the face was found.
+  template <typename Work>
+  void with_known(const OpenFace& face, const Work& work) {
+    self_ = face.instance;
+    program_.set(self_, plane::Ternary::kUnknown);
+    for (const std::uint32_t other : face.others) {
+      program_.set(other, plane::Ternary::kUnknown);
+    }
+    Settled settled;
+    for (const std::uint32_t other : face.around) note(other, true, settled);
+    work();
+    forget(settled);
+    program_.set(self_, plane::Ternary::kFalse);
+    for (const auto* known : {&face.around, &face.others}) {
+      for (const std::uint32_t other : *known) {
+        program_.set(other, plane::Ternary::kFalse);
+      }
+    }
+  }
+
+  const PlacedLeaf& leaf() { return placed(self_); }
+
+  // Leaves are placed when they are first asked for.
+  const PlacedLeaf& placed(std::uint32_t instance) {
+    std::unique_ptr<PlacedLeaf>& leaf = leaves_[instance];
+    if (!leaf) {
+      const Instance& self = scene_.instances[instance];
+      leaf = std::make_unique<PlacedLeaf>(scene_.leaves[self.leaf],
+                                          self.world_from_leaf);
+    }
+    return *leaf;
+  }
 
   // The part of a leaf's surface that meets no other surface lies wholly inside
   // or wholly outside of each other leaf.
@@ -97,7 +144,7 @@ class Finder {
   // unknown  instances of which it is not yet known
   void descend(std::uint32_t index, std::span<const std::uint32_t> unknown) {
     const BoxTree::Node& node = leaf().tree.nodes()[index];
-    if (!is_wanted_(node.box)) return;
+    if (!(*is_wanted_)(node.box)) return;
     const Settled settled = settle(node.box, unknown);
     if (program_.is_decided()) {
       // Solid on both sides, or empty.
@@ -128,7 +175,7 @@ class Finder {
       if (has_face_in(other, reach)) {
         settled.unknown.push_back(other);
       } else {
-        note(other, contains(leaves_[other], box.low), settled);
+        note(other, contains(placed(other), box.low), settled);
       }
     }
     return settled;
@@ -137,6 +184,7 @@ class Finder {
   void note(std::uint32_t other, bool is_around, Settled& settled) {
     if (is_around) {
       settled.around.push_back(other);
+      around_.push_back(other);
       state_.flip(other, true);
       program_.set(other, plane::Ternary::kTrue);
     } else {
@@ -146,6 +194,7 @@ class Finder {
   }
 
   void forget(const Settled& settled) {
+    around_.resize(around_.size() - settled.around.size());
     for (const std::uint32_t other : settled.around) {
       state_.flip(other, false);
       program_.set(other, plane::Ternary::kUnknown);
@@ -155,9 +204,9 @@ class Finder {
     }
   }
 
-  bool has_face_in(std::uint32_t other, const Box3& box) const {
+  bool has_face_in(std::uint32_t other, const Box3& box) {
     bool is_found = false;
-    leaves_[other].tree.visit(
+    placed(other).tree.visit(
         [&](const Box3& face) { return !is_found && do_meet(face, box); },
         [&](std::uint32_t) { is_found = true; });
     return is_found;
@@ -184,19 +233,23 @@ class Finder {
         std::reverse(contour.begin(), contour.end());
       }
     }
-    take_(std::move(result));
+    (*take_)(std::move(result));
   }
 
   // Judges one face by the instances near it that its parent in the tree left.
   void judge(std::uint32_t face, std::span<const std::uint32_t> unknown) {
     const Vec3 normal = leaf().faces.normal_of(face);
     const Box3 box = leaf().faces.box_of(face);
-    if (normal == Vec3(0) || !is_wanted_(box)) return;
+    if (normal == Vec3(0) || !(*is_wanted_)(box)) return;
     const Settled settled = settle(box, unknown);
     if (program_.is_decided()) {
       // Solid on both sides, or empty.
     } else if (settled.unknown.empty() && is_embedded()) {
       take_whole(face);
+    } else if (open_ != nullptr) {
+      open_->push_back({self_, face, normal,
+                        glm::length(leaf().faces.area_vector_of(face)), box,
+                        around_, settled.unknown});
     } else {
       cut(face, normal, settled.unknown);
     }
@@ -221,7 +274,7 @@ class Finder {
     std::vector<Cut> cuts;
     std::vector<Region> earlier;  // faces in this plane whose turn was before
     const auto add = [&](std::uint32_t other) {
-      WindowSection section(leaves_[other], plane, window);
+      WindowSection section(placed(other), plane, window);
       if (section.is_touched()) {
         add_earlier(other, section.faces(), face, plane, earlier);
       }
@@ -256,6 +309,220 @@ class Finder {
     program_.set(self_, plane::Ternary::kUnknown);
     emit(plane, normal, outline, inside, outside, false);
     emit(plane, -normal, outline, outside, inside, true);
+  }
+
+  // --- Areas by scan lines ----------------------------------------------------
+
+  // Edges of the face itself and of earlier ones in its plane; those of leaves
+  // have their place in live_, and their sides.
+  static constexpr std::uint32_t kOutline = 0xffffffff;
+  static constexpr std::uint32_t kEarlier = 0xfffffffe;
+
+  // A leaf that divides the window, and its winding numbers: below, above.
+  struct LiveLeaf {
+    std::uint32_t instance;
+    std::array<int, 2> base;  // where a line enters the window
+    std::array<int, 2> here{};
+  };
+  // Where a leaf's edge meets the side of the window on which lines enter.
+  struct Entry {
+    double v;
+    std::uint32_t tag;
+    int step;
+  };
+
+  // What of the window lies on one side of the plane.
+  struct Half {
+    double area = 0;  // in the plane's coordinates
+    Box3 box;
+  };
+
+  MeasuredFace scan(const OpenFace& face) {
+    const auto corners = leaf().faces.contours_of(face.face);
+    const Plane plane(corners[0][0], face.normal);
+    lines_.clear();
+    live_.clear();
+    entries_.clear();
+    Box2 window;
+    for (const auto& contour : corners) {
+      Contour flat;
+      for (const Vec3 corner : contour) flat.push_back(plane.flatten(corner));
+      for (const Vec2 corner : flat) window.add(corner);
+      add_contour(flat, kOutline);
+    }
+    Settled known;
+    add_leaves(face, plane, window, known);
+    std::array<Half, 2> halves;
+    MeasuredFace measured;
+    if (!program_.is_decided()) {
+      measured.is_exact = measure_lines(plane, window, halves);
+    }
+    forget(known);
+    for (const std::size_t side : {0U, 1U}) {
+      const Half& half = halves[side];
+      if (half.box.is_empty()) continue;  // hairlines at most
+      const double area = half.area * plane.area_factor();
+      measured.parts.push_back(
+          {side == 0 ? face.normal : -face.normal, area, half.box});
+    }
+    return measured;
+  }
+
+  void add_contour(const Contour& contour, std::uint32_t tag) {
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 next = contour[i + 1 == contour.size() ? 0 : i + 1];
+      lines_.add(contour[i], next, tag);
+    }
+  }
+
+  void add_leaves(const OpenFace& face, const Plane& plane, const Box2& window,
+                  Settled& known) {
+    // Edges and vertices often lie on the window's border. Lines enter farther
+    // out, where the rounding of no edge decides.
+    const Vec2 margin = 0.01371 * window.size() + 17 * kTieDistance;
+    const Box2 reach{window.low - margin, window.high + margin};
+    std::vector<Region> earlier;
+    for (const std::uint32_t other : face.others) {
+      add_leaf(other, face, plane, reach, known, earlier);
+      if (program_.is_decided()) return;
+    }
+    if (!is_embedded()) {
+      add_leaf(self_, face, plane, reach, known, earlier);
+    }
+    for (const Region& region : earlier) {
+      for (const Contour& contour : region.contours) {
+        add_contour(contour, kEarlier);
+      }
+    }
+  }
+
+  void add_leaf(std::uint32_t other, const OpenFace& face, const Plane& plane,
+                const Box2& reach, Settled& known,
+                std::vector<Region>& earlier) {
+    const WindowSection section(placed(other), plane, reach);
+    const bool is_touched = section.is_touched();
+    if (is_touched) {
+      add_earlier(other, section.faces(), face.face, plane, earlier);
+    }
+    LiveLeaf leaf{other, {section.corner_winding(Side::kBelow), 0}};
+    leaf.base[1] = is_touched ? section.corner_winding(Side::kAbove)
+                              : leaf.base[0];
+    std::size_t edges = add_edges(section.edges(Side::kBelow), reach,
+                                  is_touched ? 1 : 3);
+    if (is_touched) edges += add_edges(section.edges(Side::kAbove), reach, 2);
+    const bool is_inside = leaf.base[0] != 0;
+    if (edges == 0 && is_inside == (leaf.base[1] != 0) && other != self_) {
+      note(other, is_inside, known);
+    } else {
+      live_.push_back(leaf);
+    }
+  }
+
+  // Adds edges of the leaf that will be the next in live_.
+  //
+  // sides    1: below, 2: above, 3: both
+  // returns  how many there are
+  std::size_t add_edges(const std::vector<WindowSection::Edge>& edges,
+                        const Box2& reach, std::uint32_t sides) {
+    const auto tag = static_cast<std::uint32_t>(live_.size()) << 2 | sides;
+    for (const auto& [begin, end] : edges) {
+      lines_.add(begin, end, tag);
+      if ((begin.x < reach.low.x) == (end.x < reach.low.x)) continue;
+      const double share = (reach.low.x - begin.x) / (end.x - begin.x);
+      const double v = begin.y + share * (end.y - begin.y);
+      if (v > reach.low.y) entries_.push_back({v, tag, begin.x < end.x ? 1 : -1});
+    }
+    return edges.size();
+  }
+
+  bool measure_lines(const Plane& plane, const Box2& window,
+                     std::array<Half, 2>& halves) {
+    const double entry = window.low.x - 0.01371 * window.size().x -
+                         17 * kTieDistance;
+    std::ranges::sort(entries_, {}, &Entry::v);
+    outside_ = state_;
+    if (is_embedded()) state_.flip(self_, true);
+    std::size_t next = 0;
+    const bool is_exact = lines_.visit(
+        window.low.y, window.high.y,
+        [&](double low, double high,
+            std::span<const ScanLines::Crossing> crossings) {
+          const double middle = 0.5 * (low + high);
+          for (; next < entries_.size() && entries_[next].v < middle; ++next) {
+            enter(entries_[next]);
+          }
+          measure_line({low, high}, entry, crossings, plane, halves);
+        });
+    if (is_embedded()) state_.flip(self_, false);
+    return is_exact;
+  }
+
+  void enter(const Entry& entry) {
+    LiveLeaf& leaf = live_[entry.tag >> 2];
+    if ((entry.tag & 1) != 0) leaf.base[0] += entry.step;
+    if ((entry.tag & 2) != 0) leaf.base[1] += entry.step;
+  }
+
+  // Changes a leaf's winding number on one side of the plane.
+  void turn(LiveLeaf& leaf, std::size_t side, int winding) {
+    const bool was_inside = leaf.here[side] != 0;
+    leaf.here[side] = winding;
+    if (was_inside == (winding != 0)) return;
+    (side == 0 ? state_ : outside_).flip(leaf.instance, winding != 0);
+  }
+
+  void measure_line(std::array<double, 2> slab, double entry,
+                    std::span<const ScanLines::Crossing> crossings,
+                    const Plane& plane, std::array<Half, 2>& halves) {
+    for (LiveLeaf& leaf : live_) {
+      for (const std::size_t side : {0U, 1U}) turn(leaf, side, leaf.base[side]);
+    }
+    int outline = 0;
+    int earlier = 0;
+    std::array<const ScanLines::Crossing*, 2> begin{};
+    for (const ScanLines::Crossing& crossing : crossings) {
+      const std::uint32_t tag = crossing.edge->tag;
+      const int step = crossing.edge->step();
+      if (tag == kOutline) {
+        outline += step;
+      } else if (tag == kEarlier) {
+        earlier += step;
+      } else if (crossing.u >= entry) {
+        LiveLeaf& leaf = live_[tag >> 2];
+        if ((tag & 1) != 0) turn(leaf, 0, leaf.here[0] + step);
+        if ((tag & 2) != 0) turn(leaf, 1, leaf.here[1] + step);
+      }
+      const bool is_open = outline != 0 && earlier == 0;
+      const bool inside = is_open && state_.value();
+      const bool outside = is_open && outside_.value();
+      for (const std::size_t side : {0U, 1U}) {
+        const bool is_boundary =
+            inside != outside && (side == 0 ? inside : outside);
+        if (is_boundary == (begin[side] != nullptr)) continue;
+        if (is_boundary) {
+          begin[side] = &crossing;
+        } else {
+          add_part(slab, *begin[side], crossing, plane, halves[side]);
+          begin[side] = nullptr;
+        }
+      }
+    }
+    for (LiveLeaf& leaf : live_) {
+      for (const std::size_t side : {0U, 1U}) turn(leaf, side, 0);
+    }
+  }
+
+  static void add_part(std::array<double, 2> slab,
+                       const ScanLines::Crossing& begin,
+                       const ScanLines::Crossing& end, const Plane& plane,
+                       Half& half) {
+    const double width = end.u - begin.u;
+    const double height = slab[1] - slab[0];
+    half.area += width * height;
+    if (width <= kTieDistance || height <= kTieDistance) return;
+    for (const ScanLines::Edge* edge : {begin.edge, end.edge}) {
+      for (const double v : slab) half.box.add(plane.lift(edge->at(v)));
+    }
   }
 
   // Another leaf in the plane of the face. What is asked of a side is kept, and
@@ -327,8 +594,8 @@ class Finder {
   // what they share.
   void add_earlier(std::uint32_t other, std::span<const std::uint32_t> faces,
                    std::uint32_t face, const Plane& plane,
-                   std::vector<Region>& earlier) const {
-    const LeafFaces& all = leaves_[other].faces;
+                   std::vector<Region>& earlier) {
+    const LeafFaces& all = placed(other).faces;
     for (const std::uint32_t candidate : faces) {
       if (std::pair(other, candidate) >= std::pair(self_, face)) continue;
       Region region;
@@ -370,25 +637,56 @@ class Finder {
       for (const Vec2 point : contour) lifted.push_back(plane.lift(point));
       if (is_reversed) std::reverse(lifted.begin(), lifted.end());
     }
-    take_(std::move(face));
+    (*take_)(std::move(face));
   }
 
   const Scene& scene_;
-  const IsWanted& is_wanted_;
-  const Take& take_;
   plane::ProgramState state_;  // of those known to be inside
   plane::TernaryProgram
       program_;  // of all; those that are nowhere near are false
-  std::vector<PlacedLeaf> leaves_;
-  std::vector<Box3> boxes_;  // of instances
-  std::uint32_t self_ = 0;   // the instance whose faces are judged
+  std::vector<std::unique_ptr<PlacedLeaf>> leaves_;  // of instances
+  std::vector<Box3> boxes_;                          // of instances
+  // Of the search that goes on.
+  const IsWanted* is_wanted_ = nullptr;
+  const TakeFace* take_ = nullptr;
+  std::vector<OpenFace>* open_ = nullptr;
+  std::vector<std::uint32_t> around_;  // instances known to be inside
+  std::uint32_t self_ = 0;             // the instance whose faces are judged
+  // Of the face that is measured.
+  plane::ProgramState outside_;  // as state_, for the side above the face
+  ScanLines lines_;
+  std::vector<LiveLeaf> live_;
+  std::vector<Entry> entries_;
 };
 
-}  // namespace
+BoundaryFinder::BoundaryFinder(const Scene& scene)
+    : search_(std::make_unique<Search>(scene)) {}
+
+BoundaryFinder::~BoundaryFinder() = default;
+
+std::vector<OpenFace> BoundaryFinder::take_settled(const IsWanted& is_wanted,
+                                                   const TakeFace& take) {
+  std::vector<OpenFace> open;
+  search_->find(is_wanted, take, &open);
+  return open;
+}
+
+void BoundaryFinder::solve(const OpenFace& face, const TakeFace& take) {
+  search_->solve(face, take);
+}
+
+MeasuredFace BoundaryFinder::measure(const OpenFace& face) {
+  return search_->measure(face);
+}
+
+void BoundaryFinder::take_all(const IsWanted& is_wanted,
+                              const TakeFace& take) {
+  search_->find(is_wanted, take, nullptr);
+}
 
 void visit_boundary_faces(const Scene& scene, const IsWanted& is_wanted,
-                          const Take& take) {
-  Finder(scene, is_wanted, take).find();
+                          const TakeFace& take) {
+  BoundaryFinder(scene).take_all(is_wanted, take);
 }
 
 Box3 box_of(const BoundaryFace& face) {

@@ -10,7 +10,9 @@
 // part of the face that separates the two is boundary.
 // Source: set membership classification, Tilove 1980.
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "csg/scene.h"
@@ -35,14 +37,75 @@ Box3 box_of(const BoundaryFace& face);
 // the plane problems.
 std::vector<BoundaryFace> boundary_faces(const Scene& scene);
 
+// Asks whether any face within a box is needed. It is asked often, and may
+// change its mind from true to false as faces are taken.
+using IsWanted = std::function<bool(const Box3&)>;
+using TakeFace = std::function<void(BoundaryFace)>;
+
 // Visits the faces one by one, where not all of them are needed. Leaves come
 // from the outermost to the innermost.
 //
-// is_wanted  false where no face within the box is; asked often, and may change
-//            its mind from true to false as faces are taken
-// take       is called with each face that is wanted, and some others
-void visit_boundary_faces(const Scene& scene,
-                          const std::function<bool(const Box3&)>& is_wanted,
-                          const std::function<void(BoundaryFace)>& take);
+// take  is called with each face that is wanted, and some others
+void visit_boundary_faces(const Scene& scene, const IsWanted& is_wanted,
+                          const TakeFace& take);
+
+// A face of a leaf of which boxes alone do not say what is boundary.
+struct OpenFace {
+  std::uint32_t instance = 0;
+  std::uint32_t face = 0;  // of its leaf
+  Vec3 normal;             // out of the leaf; unit length
+  double area = 0;         // of the whole face [mm²]
+  Box3 box;                // of the whole face
+  // The instances that contain it, and those that decide over it. No other
+  // comes near.
+  std::vector<std::uint32_t> around;
+  std::vector<std::uint32_t> others;
+};
+
+// A plane part of the boundary of which the contours do not matter.
+struct BoundaryPart {
+  Vec3 normal;      // unit length, out of the solid
+  double area = 0;  // [mm²]
+  Box3 box;
+};
+
+// What of a face is boundary: none, one or two parts, which look to one side
+// and to the other.
+struct MeasuredFace {
+  std::vector<BoundaryPart> parts;
+  // false: the face has many edges to cut, and areas are good estimates. Thin
+  // parts may be left out, and boxes too small.
+  bool is_exact = true;
+};
+
+// Finds the boundary where plane problems are dear and few of them matter: what
+// boxes settle comes at once, and the caller says which plane problems to solve,
+// in which order. The scene must outlive it.
+class BoundaryFinder {
+ public:
+  explicit BoundaryFinder(const Scene& scene);
+  ~BoundaryFinder();
+  BoundaryFinder(const BoundaryFinder&) = delete;
+  BoundaryFinder& operator=(const BoundaryFinder&) = delete;
+
+  // Takes all faces that are wanted, as visit_boundary_faces() does.
+  void take_all(const IsWanted& is_wanted, const TakeFace& take);
+
+  // Takes the faces of leaves that are boundary as a whole, and returns those
+  // that are open, of all that are wanted.
+  std::vector<OpenFace> take_settled(const IsWanted& is_wanted,
+                                     const TakeFace& take);
+
+  // Solves one plane problem, and takes what of the face is boundary.
+  void solve(const OpenFace& face, const TakeFace& take);
+
+  // Measures what of the face is boundary, by scan lines: several times as fast
+  // as solve().
+  MeasuredFace measure(const OpenFace& face);
+
+ private:
+  class Search;
+  std::unique_ptr<Search> search_;
+};
 
 }  // namespace lamina::csg

@@ -196,15 +196,19 @@ Box3 LeafFaces::box_of(std::size_t face) const {
   return box;
 }
 
-Vec3 LeafFaces::normal_of(std::size_t face) const {
-  // The sum of the triangles' areas as vectors.
-  Vec3 sum(0);
+Vec3 LeafFaces::area_vector_of(std::size_t face) const {
+  Vec3 twice(0);
   for (const Triangle& t : triangles_of(face)) {
-    sum += glm::cross(vertices[t[1]] - vertices[t[0]],
-                      vertices[t[2]] - vertices[t[0]]);
+    twice += glm::cross(vertices[t[1]] - vertices[t[0]],
+                        vertices[t[2]] - vertices[t[0]]);
   }
-  const double length = glm::length(sum);
-  return length > 0 ? sum / length : Vec3(0);
+  return 0.5 * twice;
+}
+
+Vec3 LeafFaces::normal_of(std::size_t face) const {
+  const Vec3 vector = area_vector_of(face);
+  const double length = glm::length(vector);
+  return length > 0 ? vector / length : Vec3(0);
 }
 
 LeafFaces faces_of(const Leaf& leaf, const Affine& world_from_leaf) {

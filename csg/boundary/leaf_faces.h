@@ -36,6 +36,8 @@ struct LeafFaces {
   // The loops of a face, as points.
   std::vector<std::vector<Vec3>> contours_of(std::size_t face) const;
   Box3 box_of(std::size_t face) const;
+  // As long as the face's area [mm²], out of the leaf.
+  Vec3 area_vector_of(std::size_t face) const;
   // Unit length, out of the leaf; 0 where the face has no area.
   Vec3 normal_of(std::size_t face) const;
 };

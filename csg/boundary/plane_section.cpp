@@ -352,14 +352,24 @@ WindowSection::WindowSection(const PlacedLeaf& leaf, const Plane& plane,
 }
 
 std::optional<bool> WindowSection::uniform_value(Side side) const {
+  if (!edges(side).empty()) return {};
+  return corner_winding(side) != 0;
+}
+
+std::vector<WindowSection::Edge> WindowSection::edges(Side side) const {
   const Cutter cutter(leaf_.faces, plane_, side);
   std::vector<Segment> segments;
   for (const CutTriangle& t : triangles_) cutter.cut(t, segments);
-  const auto comes_near = [&](const Segment& segment) {
-    return is_near(window_, segment.begin, segment.end);
-  };
-  if (std::any_of(segments.begin(), segments.end(), comes_near)) return {};
-  return section_winding(leaf_, plane_, side, window_.low) != 0;
+  std::vector<Edge> edges;
+  for (const Segment& segment : segments) {
+    if (!is_near(window_, segment.begin, segment.end)) continue;
+    edges.push_back({segment.begin, segment.end});
+  }
+  return edges;
+}
+
+int WindowSection::corner_winding(Side side) const {
+  return section_winding(leaf_, plane_, side, window_.low);
 }
 
 plane::Region WindowSection::contours(Side side) const {
@@ -378,7 +388,7 @@ plane::Region WindowSection::contours(Side side) const {
   }
 
   // These contours are right but for a constant, which the whole section has.
-  int missing = section_winding(leaf_, plane_, side, window_.low);
+  int missing = corner_winding(side);
   for (const Contour& contour : result.contours) {
     missing -= winding_number(contour, window_.low);
   }

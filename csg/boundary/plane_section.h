@@ -9,6 +9,7 @@
 // sections are closed by construction.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -34,6 +35,8 @@ class Plane {
   Vec2 flatten(Vec3 p) const { return {p[u_], p[v_]}; }
   // Returns the point of the plane with these coordinates.
   Vec3 lift(Vec2 p) const;
+  // The area of a part of the plane for one in its coordinates.
+  double area_factor() const { return 1 / std::abs(normal_[dropped_]); }
   // Whether the box reaches the plane, or comes near: a vertex that counts as
   // on the plane is in no box that does not.
   bool meets(const Box3& box) const;
@@ -112,6 +115,16 @@ class WindowSection {
   // Whether all of the window is inside, or nothing of it. No value where the
   // border of the section comes near, and all of it has to be looked at.
   std::optional<bool> uniform_value(Side side) const;
+
+  // An edge of the section, the inside on its left.
+  struct Edge {
+    Vec2 begin;
+    Vec2 end;
+  };
+  // Edges that come near the window.
+  std::vector<Edge> edges(Side side) const;
+  // The leaf's winding number at the lowest corner of the window.
+  int corner_winding(Side side) const;
 
   // Contours that have, at each point of the window, the leaf's winding
   // number. Outside of the window they mean nothing.

@@ -38,6 +38,8 @@ class VertexTable {
   // The number of different points.
   std::size_t size() const { return points_.size(); }
 
+  // By name.
+  const std::vector<Vec3>& points() const { return points_; }
   // By name; the table is empty afterwards.
   std::vector<Vec3> take_points();
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 
 #include "base/diagnostic.h"
 #include "csg/boundary/boundary_faces.h"
+#include "csg/mesh/box_tree.h"
 #include "csg/mesh/vertex_table.h"
 #include "plane/tie_distance.h"
 #include "slicer/plan/detail/stacking.h"
@@ -72,14 +74,14 @@ class Corners {
     note(glm::floor(corner / kCube), kHome);
   }
 
-  // Heights of peaks and pits.
-  std::vector<double> take_ends() {
-    std::vector<double> ends;
-    const std::vector<Vec3> cubes = cubes_.take_points();
+  // Middles of the cubes of peaks and pits, as far as faces are known.
+  std::vector<Vec3> ends() const {
+    std::vector<Vec3> ends;
+    const std::vector<Vec3>& cubes = cubes_.points();
     for (std::size_t i = 0; i < cubes.size(); ++i) {
       const std::uint8_t bits = bits_[i];
       if ((bits & kHome) != 0 && bits != (kUp | kDown | kHome)) {
-        ends.push_back((cubes[i].z + 0.5) * kCube);
+        ends.push_back((cubes[i] + 0.5) * kCube);
       }
     }
     return ends;
@@ -127,23 +129,44 @@ class PlyLimits {
     return is_free(plies);
   }
 
-  void take(const csg::BoundaryFace& face) {
-    const Box3 box = csg::box_of(face);
+  // Takes a part of the surface without its corners.
+  void take_slope(const Vec3& normal, const Box3& box) {
     const double low = box.low.z;
     const double high = box.high.z;
     if (high - low <= kReach) {
       take_end((low + high) / 2, kReach);
-      return;
+    } else {
+      limit(plies_near(low + 2 * kReach, high - 2 * kReach),
+            plies_for(std::abs(normal.z)));
     }
-    for (const auto& contour : face.contours) {
-      add_corners(contour, face.normal);
-    }
-    limit(plies_near(low + 2 * kReach, high - 2 * kReach),
-          plies_for(std::abs(face.normal.z)));
   }
 
+  void take(const csg::BoundaryFace& face) {
+    const Box3 box = csg::box_of(face);
+    if (box.high.z - box.low.z > kReach) {
+      for (const auto& contour : face.contours) {
+        add_corners(contour, face.normal);
+      }
+    }
+    take_slope(face.normal, box);
+  }
+
+  // The most plies of a layer that a facet with this |n_z| comes into.
+  std::uint16_t plies_for(double steepness) const {
+    // A cusp that is met but for rounding is met.
+    constexpr double kRounding = 1e-9;
+    const double plies = cusp_ / (steepness * unit_) + kRounding;
+    if (!(plies < greatest_)) return greatest_;
+    return static_cast<std::uint16_t>(std::max(plies, 1.0));
+  }
+
+  // Whether a peak or a pit at this height changes a limit.
+  bool is_end_wanted(double z) const { return is_wanted({Vec3(z), Vec3(z)}); }
+
+  const Corners& corners() const { return corners_; }
+
   Plies finish() {
-    for (const double z : corners_.take_ends()) take_end(z, Corners::kCube);
+    for (const Vec3& end : corners_.ends()) take_end(end.z, Corners::kCube);
     return std::move(plies_);
   }
 
@@ -186,15 +209,6 @@ class PlyLimits {
                        [](std::uint16_t limit) { return limit > 1; });
   }
 
-  // The most plies of a layer that a facet with this |n_z| comes into.
-  std::uint16_t plies_for(double steepness) const {
-    // A cusp that is met but for rounding is met.
-    constexpr double kRounding = 1e-9;
-    const double plies = cusp_ / (steepness * unit_) + kRounding;
-    if (!(plies < greatest_)) return greatest_;
-    return static_cast<std::uint16_t>(std::max(plies, 1.0));
-  }
-
   void limit(PlySpan plies, std::uint16_t most) {
     for (std::uint32_t i = plies.begin; i < plies.end; ++i) {
       std::uint16_t& limit = plies_.limits[i];
@@ -226,6 +240,81 @@ class PlyLimits {
   std::uint32_t free_plies_;  // those whose layers may have more plies
   Plies plies_;
   Corners corners_;
+};
+
+// Lets the faces of a surface limit plies, at least cost: those that boxes
+// settle, then those that limit most, and upright walls where they matter.
+class SurfaceReader {
+ public:
+  SurfaceReader(csg::BoundaryFinder& finder, PlyLimits& limits)
+      : finder_(finder), limits_(limits) {}
+
+  void read() {
+    std::vector<csg::OpenFace> open = finder_.take_settled(
+        [&](const Box3& box) { return limits_.is_wanted(box); },
+        [&](const csg::BoundaryFace& face) { limits_.take(face); });
+    const auto upright = std::ranges::stable_partition(
+        open, [](const csg::OpenFace& face) {
+          return std::abs(face.normal.z) > kUpright;
+        });
+    const std::span slopes(open.begin(), upright.begin());
+    std::ranges::stable_sort(slopes, {}, [&](const csg::OpenFace& face) {
+      return std::pair(limits_.plies_for(std::abs(face.normal.z)),
+                       face.box.low.z - face.box.high.z);
+    });
+    for (const csg::OpenFace& face : slopes) read_slope(face);
+    read_upright(upright);
+  }
+
+ private:
+  // |n_z| of walls that lean by less than kReach on 10 m.
+  static constexpr double kUpright = 1e-10;
+
+  void read_slope(const csg::OpenFace& face) {
+    if (!limits_.is_wanted(face.box)) return;
+    const csg::MeasuredFace measured = finder_.measure(face);
+    if (measured.is_exact) {
+      for (const csg::BoundaryPart& part : measured.parts) {
+        limits_.take_slope(part.normal, part.box);
+      }
+      const bool has_corners = std::ranges::any_of(
+          measured.parts, [&](const csg::BoundaryPart& part) {
+            return limits_.is_wanted(part.box);
+          });
+      if (!has_corners) return;
+    }
+    solve(face);
+  }
+
+  // An upright wall limits nothing, and no peak or pit is of upright walls
+  // alone. But where it goes on from a corner of other faces, upwards and
+  // downwards, none is there.
+  void read_upright(std::span<const csg::OpenFace> walls) {
+    std::vector<Box3> ends;
+    for (const Vec3& end : limits_.corners().ends()) {
+      if (!limits_.is_end_wanted(end.z)) continue;
+      ends.push_back({end - Corners::kCube, end + Corners::kCube});
+    }
+    const csg::BoxTree tree(ends);
+    for (const csg::OpenFace& wall : walls) {
+      bool is_met = false;
+      tree.visit(
+          [&](const Box3& end) { 
+            return !is_met && csg::do_meet(end, wall.box);
+          },
+          [&](std::uint32_t) { is_met = true; });
+      if (is_met) solve(wall);
+    }
+  }
+
+  void solve(const csg::OpenFace& face) {
+    finder_.solve(face, [&](const csg::BoundaryFace& part) {
+      limits_.take(part);
+    });
+  }
+
+  csg::BoundaryFinder& finder_;
+  PlyLimits& limits_;
 };
 
 // The number of plies of the thickest layer, where there are `count` of them.
@@ -262,9 +351,8 @@ ldni::LayerGrid adaptive_grid(const csg::Scene& scene,
   if (count * greatest > kMostStates) refuse(heights, unit);
   PlyLimits limits(heights, unit, thickness.cusp, greatest,
                    static_cast<std::uint32_t>(count));
-  csg::visit_boundary_faces(
-      scene, [&](const Box3& box) { return limits.is_wanted(box); },
-      [&](const csg::BoundaryFace& face) { limits.take(face); });
+  csg::BoundaryFinder finder(scene);
+  SurfaceReader(finder, limits).read();
   return ldni::LayerGrid::stacked(
       heights.low, unit,
       stack_layers(limits.finish(), greatest, thickness.most_runs));

@@ -15,84 +15,52 @@
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/move_scene.h"
 #include "csg/degrees.h"
-#include "plane/tie_distance.h"
+#include "slicer/plan/detail/surface_sample.h"
 
 namespace lamina::slicer {
 namespace {
 
-// Lengths [mm], and sums as a share of the whole surface, that differ by less
-// are equal: so far the rounding of Booleans may move them.
-constexpr double kSame = kTieDistance;
+// Plane problems that a choice is worth: about 20 ms. Small faces beyond are
+// sampled.
+constexpr std::size_t kMostProblems = 4096;
 
 // What looks down by more than 45° wants supports; 45° but for rounding does
 // not.
 constexpr double kOverhang = std::numbers::sqrt2 / 2 + 1e-6;
 
-// The area of a plane polygon with holes [mm²].
-double area_of(const csg::BoundaryFace& face) {
-  Vec3 twice(0);
-  for (const auto& contour : face.contours) {
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const Vec3& next = contour[(i + 1) % contour.size()];
-      // From the face's own corner, not from the origin: less is cancelled.
-      twice += glm::cross(contour[i] - face.contours[0][0],
-                          next - face.contours[0][0]);
-    }
-  }
-  return glm::dot(twice, face.normal) / 2;
-}
-
 // Sums over the surface for both directions along a coordinate.
 struct Sums {
   double steps = 0;  // area · |n| of all faces but flat ones
-  double low = 1e300;
-  double high = -1e300;
+  double size = 0;   // [mm]
   // Surface that looks down, or up, by more than 45°; and how much is flat and
   // lies as low, or as high, as anything.
   double looks_down = 0;
   double looks_up = 0;
   double lies_low = 0;
   double lies_high = 0;
+};
 
-  double size() const { return high - low; }
-
-  void take(double area, double normal, double face_low, double face_high) {
-    const bool is_flat = face_high - face_low <= kSame;
-    if (!is_flat) steps += area * std::abs(normal);
-    if (face_low < low - kSame) lies_low = 0;
-    if (face_high > high + kSame) lies_high = 0;
-    low = std::min(low, face_low);
-    high = std::max(high, face_high);
-    if (normal < -kOverhang) looks_down += area;
-    if (normal > kOverhang) looks_up += area;
-    if (is_flat && normal < 0 && face_low <= low + kSame) lies_low += area;
-    if (is_flat && normal > 0 && face_high >= high - kSame) lies_high += area;
+Sums sums_along(int axis, const SurfaceSample& surface) {
+  Sums sums;
+  const double low = surface.box.low[axis] + kSameLength;
+  const double high = surface.box.high[axis] - kSameLength;
+  sums.size = surface.box.size()[axis];
+  for (const SurfacePart& part : surface.parts) {
+    const double normal = part.normal[axis];
+    const double area = part.area;
+    const bool is_flat = part.box.size()[axis] <= kSameLength;
+    if (!is_flat) sums.steps += area * std::abs(normal);
+    if (normal < -kOverhang) sums.looks_down += area;
+    if (normal > kOverhang) sums.looks_up += area;
+    if (!is_flat) continue;
+    if (normal < 0 && part.box.low[axis] <= low) sums.lies_low += area;
+    if (normal > 0 && part.box.high[axis] >= high) sums.lies_high += area;
   }
-};
-
-struct Surface {
-  std::array<Sums, 3> along;  // x, y, z
-  double area = 0;
-};
-
-Surface measure_surface(const csg::Scene& scene) {
-  Surface surface;
-  csg::visit_boundary_faces(
-      scene, [](const Box3&) { return true; },
-      [&](const csg::BoundaryFace& face) {
-        const Box3 box = csg::box_of(face);
-        const double area = area_of(face);
-        surface.area += area;
-        for (int i = 0; i < 3; ++i) {
-          surface.along[static_cast<std::size_t>(i)].take(
-              area, face.normal[i], box.low[i], box.high[i]);
-        }
-      });
-  return surface;
+  return sums;
 }
 
 bool fits(Vec3 size, Vec3 volume) {
-  return glm::all(glm::lessThanEqual(size, volume + kSame));
+  return glm::all(glm::lessThanEqual(size, volume + kSameLength));
 }
 
 // The part as it stands, turned by a quarter where it fits only so.
@@ -109,18 +77,15 @@ void fit(Orientation& orientation, Vec3 size, Vec3 volume) {
   }
 }
 
-Orientation orientation_along(std::string_view axis, const Surface& surface,
+Orientation orientation_along(std::string_view axis,
+                              const std::array<Sums, 3>& along,
                               double thickness, Vec3 volume) {
   const bool is_reversed = axis.front() == '-';
-  const Sums& sums = surface.along[static_cast<std::size_t>(axis.back() - 'x')];
+  const Sums& sums = along[static_cast<std::size_t>(axis.back() - 'x')];
   Orientation orientation;
   orientation.axis = axis;
-  if (surface.area == 0) return orientation;
   orientation.cusp_error = sums.steps * thickness;
-  fit(orientation,
-      {surface.along[0].size(), surface.along[1].size(),
-       surface.along[2].size()},
-      volume);
+  fit(orientation, {along[0].size, along[1].size, along[2].size}, volume);
   orientation.footing = is_reversed ? sums.lies_high : sums.lies_low;
   const double looks_down = is_reversed ? sums.looks_up : sums.looks_down;
   orientation.overhang = std::max(looks_down - orientation.footing, 0.0);
@@ -147,10 +112,16 @@ Affine turn_to_axis(std::string_view axis, double degrees) {
 
 OrientationChoice choose_orientation(const csg::Scene& scene, double thickness,
                                      Vec3 volume) {
-  const Surface surface = measure_surface(scene);
+  const SurfaceSample surface = sample_surface(scene, kMostProblems);
+  std::array<Sums, 3> along;
+  if (surface.area > 0) {
+    for (int i = 0; i < 3; ++i) {
+      along[static_cast<std::size_t>(i)] = sums_along(i, surface);
+    }
+  }
   OrientationChoice choice;
   for (std::size_t i = 0; i < kAxes.size(); ++i) {
-    choice.all[i] = orientation_along(kAxes[i], surface, thickness, volume);
+    choice.all[i] = orientation_along(kAxes[i], along, thickness, volume);
   }
   std::vector<std::size_t> left = {0, 1, 2, 3, 4, 5};
   const auto keep_best = [&](std::string_view name, double tolerance,
@@ -167,11 +138,11 @@ OrientationChoice choose_orientation(const csg::Scene& scene, double thickness,
     choice.reason += name;
   };
   using O = Orientation;
-  const double same_area = kSame * surface.area;
+  const double same_area = kSameLength * surface.area + surface.doubt;
   keep_best("what fits", 0, [](const O& o) { return o.fits ? 0. : 1.; });
   keep_best("the least cusp error", same_area * thickness,
             [](const O& o) { return o.cusp_error; });
-  keep_best("the least height", kSame, [](const O& o) { return o.size.z; });
+  keep_best("the least height", kSameLength, [](const O& o) { return o.size.z; });
   keep_best("the least overhang", same_area,
             [](const O& o) { return o.overhang; });
   keep_best("the most on the bed", same_area,

@@ -1,0 +1,150 @@
+#include "slicer/plan/detail/surface_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "csg/boundary/boundary_faces.h"
+
+namespace lamina::slicer {
+namespace {
+
+using csg::BoundaryFace;
+using csg::OpenFace;
+
+// The area of a plane polygon with holes [mm²].
+double area_of(const BoundaryFace& face) {
+  Vec3 twice(0);
+  for (const auto& contour : face.contours) {
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec3& next = contour[(i + 1) % contour.size()];
+      // From the face's own corner, not from the origin: less is cancelled.
+      twice += glm::cross(contour[i] - face.contours[0][0],
+                          next - face.contours[0][0]);
+    }
+  }
+  return glm::dot(twice, face.normal) / 2;
+}
+
+// Returns the area that each face of a sample of `count` stands for: a face
+// that has it, or more, stands for itself alone. 0 where that holds for all.
+double area_of_draw(const std::vector<OpenFace>& open, std::size_t count) {
+  if (open.size() <= count) return 0;
+  std::vector<double> areas;
+  areas.reserve(open.size());
+  for (const OpenFace& face : open) areas.push_back(face.area);
+  std::ranges::sort(areas, std::greater<>());
+  double rest = std::accumulate(areas.begin(), areas.end(), 0.0);
+  std::size_t large = 0;
+  while (large < count &&
+         areas[large] * static_cast<double>(count - large) >= rest) {
+    rest -= areas[large++];
+  }
+  if (large == count) return areas[large];
+  return rest / static_cast<double>(count - large);
+}
+
+class Sampler {
+ public:
+  explicit Sampler(const csg::Scene& scene) : finder_(scene) {}
+
+  SurfaceSample sample(std::size_t most_problems) {
+    open_ = finder_.take_settled(
+        [](const Box3&) { return true; },
+        [&](const BoundaryFace& face) {
+          add({face.normal, area_of(face), csg::box_of(face)}, 1);
+        });
+    is_solved_.assign(open_.size(), false);
+    const double draw = area_of_draw(open_, most_problems);
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (open_[i].area >= draw) solve(i, 1);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      solve_reaching(axis, -1);
+      solve_reaching(axis, 1);
+    }
+    if (draw > 0) solve_drawn(draw);
+    return std::move(sample_);
+  }
+
+ private:
+  void add(const csg::BoundaryPart& part, double weight) {
+    sample_.parts.push_back({part.normal, weight * part.area, part.box});
+    sample_.area += weight * part.area;
+    sample_.box.add(part.box);
+  }
+
+  // Returns the area of boundary that the face has.
+  double solve(std::size_t open, double weight) {
+    is_solved_[open] = true;
+    double area = 0;
+    for (const csg::BoundaryPart& part : finder_.measure(open_[open]).parts) {
+      area += part.area;
+      add(part, weight);
+    }
+    return area;
+  }
+
+  // Solves what may reach beyond all that is known, the outermost first.
+  void solve_reaching(int axis, double sign) {
+    const auto reach_of = [&](const Box3& box) {
+      return sign > 0 ? box.high[axis] : -box.low[axis];
+    };
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      const double reach = reach_of(open_[i].box);
+      if (!is_solved_[i] && reach > reach_of(sample_.box) + kSameLength) {
+        order.emplace_back(-reach, i);
+      }
+    }
+    std::ranges::sort(order);
+    for (const auto& [reach, i] : order) {
+      if (-reach <= reach_of(sample_.box) + kSameLength) break;
+      solve(i, 1);
+    }
+  }
+
+  // Lays the faces that are left one behind the other, and solves those that
+  // lie at the middle of each `draw` of their area.
+  void solve_drawn(double draw) {
+    double passed = 0;
+    double next = draw / 2;
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (is_solved_[i]) continue;
+      passed += open_[i].area;
+      if (passed < next) continue;
+      next += draw;
+      shares.push_back(solve(i, draw / open_[i].area) / open_[i].area);
+    }
+    sample_.doubt = doubt_of(shares, draw);
+  }
+
+  // Two standard deviations.
+  static double doubt_of(const std::vector<double>& shares, double draw) {
+    if (shares.empty()) return 0;
+    const double mean = std::accumulate(shares.begin(), shares.end(), 0.0) /
+                        static_cast<double>(shares.size());
+    double sum = 0;
+    for (const double share : shares) sum += (share - mean) * (share - mean);
+    return 2 * draw * std::sqrt(sum);
+  }
+
+  csg::BoundaryFinder finder_;
+  std::vector<OpenFace> open_;
+  std::vector<bool> is_solved_;
+  SurfaceSample sample_;
+};
+
+}  // namespace
+
+SurfaceSample sample_surface(const csg::Scene& scene,
+                             std::size_t most_problems) {
+  return Sampler(scene).sample(most_problems);
+}
+
+}  // namespace lamina::slicer
