@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -98,9 +99,9 @@ class BoundaryFinder::Search {
     with_known(face, [&] { cut(face.face, face.normal, face.others); });
   }
 
-  MeasuredFace measure(const OpenFace& face) {
+  MeasuredFace measure(const OpenFace& face, std::size_t most_lines) {
     MeasuredFace measured;
-    with_known(face, [&] { measured = scan(face); });
+    with_known(face, [&] { measured = scan(face, most_lines); });
     return measured;
   }
 
@@ -337,7 +338,7 @@ class BoundaryFinder::Search {
     Box3 box;
   };
 
-  MeasuredFace scan(const OpenFace& face) {
+  MeasuredFace scan(const OpenFace& face, std::size_t most_lines) {
     const auto corners = leaf().faces.contours_of(face.face);
     const Plane plane(corners[0][0], face.normal);
     lines_.clear();
@@ -355,9 +356,10 @@ class BoundaryFinder::Search {
     std::array<Half, 2> halves;
     MeasuredFace measured;
     if (!program_.is_decided()) {
-      measured.is_exact = measure_lines(plane, window, halves);
+      measured.is_exact = measure_lines(plane, window, most_lines, halves);
     }
     forget(known);
+    measured.edges = lines_.size();
     for (const std::size_t side : {0U, 1U}) {
       const Half& half = halves[side];
       if (half.box.is_empty()) continue;  // hairlines at most
@@ -436,7 +438,7 @@ class BoundaryFinder::Search {
   }
 
   bool measure_lines(const Plane& plane, const Box2& window,
-                     std::array<Half, 2>& halves) {
+                     std::size_t most_lines, std::array<Half, 2>& halves) {
     const double entry = window.low.x - 0.01371 * window.size().x -
                          17 * kTieDistance;
     std::ranges::sort(entries_, {}, &Entry::v);
@@ -444,7 +446,7 @@ class BoundaryFinder::Search {
     if (is_embedded()) state_.flip(self_, true);
     std::size_t next = 0;
     const bool is_exact = lines_.visit(
-        window.low.y, window.high.y,
+        window.low.y, window.high.y, most_lines,
         [&](double low, double high,
             std::span<const ScanLines::Crossing> crossings) {
           const double middle = 0.5 * (low + high);
@@ -675,8 +677,9 @@ void BoundaryFinder::solve(const OpenFace& face, const TakeFace& take) {
   search_->solve(face, take);
 }
 
-MeasuredFace BoundaryFinder::measure(const OpenFace& face) {
-  return search_->measure(face);
+MeasuredFace BoundaryFinder::measure(const OpenFace& face,
+                                     std::size_t most_lines) {
+  return search_->measure(face, most_lines);
 }
 
 void BoundaryFinder::take_all(const IsWanted& is_wanted,
@@ -687,6 +690,10 @@ void BoundaryFinder::take_all(const IsWanted& is_wanted,
 void visit_boundary_faces(const Scene& scene, const IsWanted& is_wanted,
                           const TakeFace& take) {
   BoundaryFinder(scene).take_all(is_wanted, take);
+}
+
+bool is_upright(const OpenFace& face) {
+  return std::abs(face.normal.z) <= 1e-10;
 }
 
 Box3 box_of(const BoundaryFace& face) {

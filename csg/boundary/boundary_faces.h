@@ -10,6 +10,7 @@
 // part of the face that separates the two is boundary.
 // Source: set membership classification, Tilove 1980.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -62,6 +63,10 @@ struct OpenFace {
   std::vector<std::uint32_t> others;
 };
 
+// Whether it leans by less than 1e-6 mm on 10 m. Such faces alone make no peak,
+// pit, lowest or highest point.
+bool is_upright(const OpenFace& face);
+
 // A plane part of the boundary of which the contours do not matter.
 struct BoundaryPart {
   Vec3 normal;      // unit length, out of the solid
@@ -73,9 +78,9 @@ struct BoundaryPart {
 // and to the other.
 struct MeasuredFace {
   std::vector<BoundaryPart> parts;
-  // false: the face has many edges to cut, and areas are good estimates. Thin
-  // parts may be left out, and boxes too small.
+  // false: areas are estimates. Thin parts may be left out, and boxes too small.
   bool is_exact = true;
+  std::size_t edges = 0;  // that were looked at: the cost
 };
 
 // Finds the boundary where plane problems are dear and few of them matter: what
@@ -101,7 +106,9 @@ class BoundaryFinder {
 
   // Measures what of the face is boundary, by scan lines: several times as fast
   // as solve().
-  MeasuredFace measure(const OpenFace& face);
+  //
+  // most_lines  where it would take more, a few give an estimate
+  MeasuredFace measure(const OpenFace& face, std::size_t most_lines);
 
  private:
   class Search;

@@ -30,6 +30,9 @@ constexpr double kReach = kTieDistance;
 // Plies times plies of the thickest layer: 300 MB and a minute.
 constexpr double kMostStates = 3e7;
 
+// What a plane problem costs less than.
+constexpr std::size_t kManyLines = 10'000;
+
 // Whether a face goes on from a corner upwards, and downwards.
 struct Ways {
   bool up = false;
@@ -254,9 +257,7 @@ class SurfaceReader {
         [&](const Box3& box) { return limits_.is_wanted(box); },
         [&](const csg::BoundaryFace& face) { limits_.take(face); });
     const auto upright = std::ranges::stable_partition(
-        open, [](const csg::OpenFace& face) {
-          return std::abs(face.normal.z) > kUpright;
-        });
+        open, [](const csg::OpenFace& face) { return !is_upright(face); });
     const std::span slopes(open.begin(), upright.begin());
     std::ranges::stable_sort(slopes, {}, [&](const csg::OpenFace& face) {
       return std::pair(limits_.plies_for(std::abs(face.normal.z)),
@@ -267,12 +268,9 @@ class SurfaceReader {
   }
 
  private:
-  // |n_z| of walls that lean by less than kReach on 10 m.
-  static constexpr double kUpright = 1e-10;
-
   void read_slope(const csg::OpenFace& face) {
     if (!limits_.is_wanted(face.box)) return;
-    const csg::MeasuredFace measured = finder_.measure(face);
+    const csg::MeasuredFace measured = finder_.measure(face, kManyLines);
     if (measured.is_exact) {
       for (const csg::BoundaryPart& part : measured.parts) {
         limits_.take_slope(part.normal, part.box);
@@ -303,7 +301,10 @@ class SurfaceReader {
             return !is_met && csg::do_meet(end, wall.box);
           },
           [&](std::uint32_t) { is_met = true; });
-      if (is_met) solve(wall);
+      if (!is_met) continue;
+      const csg::MeasuredFace measured = finder_.measure(wall, kManyLines);
+      if (measured.is_exact && measured.parts.empty()) continue;
+      solve(wall);
     }
   }
 
@@ -342,7 +343,8 @@ std::uint16_t greatest_multiple(const AdaptiveThickness& thickness,
 ldni::LayerGrid adaptive_grid(const csg::Scene& scene,
                               const AdaptiveThickness& thickness) {
   const double unit = thickness.thinnest;
-  const SurfaceHeights heights = surface_heights(scene);
+  csg::BoundaryFinder finder(scene);
+  const SurfaceHeights heights = surface_heights(scene, finder);
   if (heights.is_empty()) return ldni::LayerGrid::at_heights({});
   // As many as uniform layers.
   const double count =
@@ -351,7 +353,6 @@ ldni::LayerGrid adaptive_grid(const csg::Scene& scene,
   if (count * greatest > kMostStates) refuse(heights, unit);
   PlyLimits limits(heights, unit, thickness.cusp, greatest,
                    static_cast<std::uint32_t>(count));
-  csg::BoundaryFinder finder(scene);
   SurfaceReader(finder, limits).read();
   return ldni::LayerGrid::stacked(
       heights.low, unit,

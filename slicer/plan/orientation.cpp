@@ -12,7 +12,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/move_scene.h"
 #include "csg/degrees.h"
 #include "slicer/plan/detail/surface_sample.h"
@@ -20,9 +19,11 @@
 namespace lamina::slicer {
 namespace {
 
-// Plane problems that a choice is worth: about 20 ms. Small faces beyond are
-// sampled.
-constexpr std::size_t kMostProblems = 4096;
+// Edges that a choice may cut: about 30 ms. Small faces beyond are sampled.
+constexpr std::size_t kMostEdges = 150'000;
+
+// What a plane problem costs less than.
+constexpr std::size_t kManyLines = 10'000;
 
 // What looks down by more than 45° wants supports; 45° but for rounding does
 // not.
@@ -112,7 +113,7 @@ Affine turn_to_axis(std::string_view axis, double degrees) {
 
 OrientationChoice choose_orientation(const csg::Scene& scene, double thickness,
                                      Vec3 volume) {
-  const SurfaceSample surface = sample_surface(scene, kMostProblems);
+  const SurfaceSample surface = sample_surface(scene, kMostEdges);
   std::array<Sums, 3> along;
   if (surface.area > 0) {
     for (int i = 0; i < 3; ++i) {
@@ -173,23 +174,57 @@ std::string orientation_table(const OrientationChoice& choice) {
   return text;
 }
 
-SurfaceHeights surface_heights(const csg::Scene& scene) {
+SurfaceHeights surface_heights(const csg::Scene& scene,
+                               csg::BoundaryFinder& finder) {
+  // Leaves reach beyond the scene's box, the surface does not.
+  constexpr double kRounding = 1e-9;  // [mm]
+  const double lowest = scene.box.low.z + kRounding;
+  const double highest = scene.box.high.z - kRounding;
   SurfaceHeights heights;
-  csg::visit_boundary_faces(
-      scene,
+  const auto may_be_lowest = [&](const Box3& box) {
+    return box.low.z < heights.low && heights.low > lowest;
+  };
+  const auto may_be_highest = [&](const Box3& box) {
+    return box.high.z > heights.high && heights.high < highest;
+  };
+  const auto take = [&](const Box3& box) {
+    heights.low = std::min(heights.low, box.low.z);
+    heights.high = std::max(heights.high, box.high.z);
+  };
+  std::vector<csg::OpenFace> open = finder.take_settled(
       [&](const Box3& box) {
-        return box.low.z < heights.low || box.high.z > heights.high;
+        return may_be_lowest(box) || may_be_highest(box);
       },
-      [&](const csg::BoundaryFace& face) {
-        const Box3 box = csg::box_of(face);
-        heights.low = std::min(heights.low, box.low.z);
-        heights.high = std::max(heights.high, box.high.z);
-      });
+      [&](const csg::BoundaryFace& face) { take(csg::box_of(face)); });
+  // At the lowest and at the highest point there is a face that is not upright.
+  std::erase_if(open, csg::is_upright);
+  for (const double sign : {1.0, -1.0}) {
+    // The farthest first, and flat faces before others.
+    std::ranges::sort(open, {}, [&](const csg::OpenFace& face) {
+      const double far = sign > 0 ? face.box.low.z : -face.box.high.z;
+      return std::pair(std::max(far, sign > 0 ? lowest : -highest),
+                       face.box.size().z);
+    });
+    for (const csg::OpenFace& face : open) {
+      if (sign > 0 ? !may_be_lowest(face.box) : !may_be_highest(face.box)) {
+        break;
+      }
+      const csg::MeasuredFace measured = finder.measure(face, kManyLines);
+      if (measured.is_exact) {
+        for (const csg::BoundaryPart& part : measured.parts) take(part.box);
+      } else {
+        finder.solve(face, [&](const csg::BoundaryFace& part) {
+          take(csg::box_of(part));
+        });
+      }
+    }
+  }
   return heights;
 }
 
 void place_on_bed(csg::Scene& scene) {
-  const SurfaceHeights heights = surface_heights(scene);
+  csg::BoundaryFinder finder(scene);
+  const SurfaceHeights heights = surface_heights(scene, finder);
   if (heights.is_empty()) return;
   csg::move_scene(scene, Affine(1.0), Vec3(0, 0, -heights.low));
   // Layers are counted from the bed, though leaves may reach below it.

@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 
+#include "csg/boundary/boundary_faces.h"
 #include "csg/scene.h"
 
 namespace lamina::slicer {
@@ -74,7 +75,10 @@ struct SurfaceHeights {
 };
 
 // Looks at faces beyond those found so far only.
-SurfaceHeights surface_heights(const csg::Scene& scene);
+//
+// finder  of the scene
+SurfaceHeights surface_heights(const csg::Scene& scene,
+                               csg::BoundaryFinder& finder);
 
 // Shifts the scene upwards or downwards until its lowest point is at height 0;
 // x and y stay.

@@ -163,12 +163,16 @@ TEST(TurnToAxis, LiftsItsAxis) {
   }
 }
 
+slicer::SurfaceHeights heights_of(const csg::Scene& scene) {
+  csg::BoundaryFinder finder(scene);
+  return slicer::surface_heights(scene, finder);
+}
+
 TEST(SurfaceHeights, AreThoseOfTheResultNotOfItsLeaves) {
   const Design design = Design::from_text(
       "difference() { sphere(5, $fn = 40); translate([-9, -9, -9]) cube([18, "
       "18, 7.5]); translate([0, 0, 12.25]) cube(18, center = true); }");
-  const slicer::SurfaceHeights heights =
-      slicer::surface_heights(design.scene());
+  const slicer::SurfaceHeights heights = heights_of(design.scene());
   EXPECT_NEAR(heights.low, -1.5, 1e-7);
   EXPECT_NEAR(heights.high, 3.25, 1e-7);
 }
@@ -176,7 +180,7 @@ TEST(SurfaceHeights, AreThoseOfTheResultNotOfItsLeaves) {
 TEST(SurfaceHeights, AreEmptyWhereNothingIsSolid) {
   const Design nothing =
       Design::from_text("difference() { cube(1); cube(2); }");
-  EXPECT_TRUE(slicer::surface_heights(nothing.scene()).is_empty());
+  EXPECT_TRUE(heights_of(nothing.scene()).is_empty());
 }
 
 TEST(PlaceOnBed, PutsTheLowestPointAtHeight0) {
@@ -185,7 +189,7 @@ TEST(PlaceOnBed, PutsTheLowestPointAtHeight0) {
       "translate([-9, -9, -9]) cube([18, 18, 7.5]); }");
   csg::Scene scene = design.scene();
   slicer::place_on_bed(scene);
-  const slicer::SurfaceHeights heights = slicer::surface_heights(scene);
+  const slicer::SurfaceHeights heights = heights_of(scene);
   EXPECT_NEAR(heights.low, 0, 1e-12);
   EXPECT_EQ(scene.box.low.z, 0);
   EXPECT_EQ(scene.box.low.x, design.scene().box.low.x);

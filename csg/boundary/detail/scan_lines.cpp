@@ -6,11 +6,8 @@
 namespace lamina::csg {
 namespace {
 
-// Of more edges the crossings are not looked for: pairs of them.
-constexpr std::size_t kMostEdges = 128;
-
-// Of more slabs lines are evenly spaced.
-constexpr std::size_t kMostLines = 256;
+// Slabs of an estimate.
+constexpr std::size_t kFewLines = 64;
 
 double low_of(const ScanLines::Edge& edge) {
   return std::min(edge.begin.y, edge.end.y);
@@ -24,9 +21,10 @@ double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
 }  // namespace
 
-bool ScanLines::find_slabs(double low, double high) {
+bool ScanLines::find_slabs(double low, double high, std::size_t most) {
+  sort_edges();
   borders_ = level_;
-  if (edges_.size() <= kMostEdges) {
+  if (2 * edges_.size() <= most) {
     for (const Edge& edge : edges_) {
       borders_.push_back(edge.begin.y);
       borders_.push_back(edge.end.y);
@@ -36,39 +34,50 @@ bool ScanLines::find_slabs(double low, double high) {
     borders_.push_back(low);
     borders_.push_back(high);
     std::ranges::sort(borders_);
-    if (borders_.size() <= kMostLines) return true;
+    if (borders_.size() <= most) return true;
   }
-  borders_.resize(kMostLines + 1);
-  for (std::size_t i = 0; i <= kMostLines; ++i) {
-    const double share = static_cast<double>(i) / kMostLines;
+  borders_.resize(kFewLines + 1);
+  for (std::size_t i = 0; i <= kFewLines; ++i) {
+    const double share = static_cast<double>(i) / kFewLines;
     borders_[i] = low + share * (high - low);
   }
   return false;
 }
 
 void ScanLines::add_crossings() {
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
+  active_.clear();
+  for (const std::uint32_t i : order_) {
     const Edge& a = edges_[i];
     const Vec2 along = a.end - a.begin;
-    for (std::size_t j = i + 1; j < edges_.size(); ++j) {
+    const double low = low_of(a);
+    const double high = high_of(a);
+    const auto [left, right] = std::minmax(a.begin.x, a.end.x);
+    std::erase_if(active_,
+                  [&](std::uint32_t j) { return high_of(edges_[j]) <= low; });
+    for (const std::uint32_t j : active_) {
       const Edge& b = edges_[j];
-      if (low_of(a) >= high_of(b) || low_of(b) >= high_of(a)) continue;
+      if (std::min(b.begin.x, b.end.x) > right) continue;
+      if (std::max(b.begin.x, b.end.x) < left) continue;
       const double begin = csg::cross(along, b.begin - a.begin);
       const double end = csg::cross(along, b.end - a.begin);
       if ((begin > 0) == (end > 0)) continue;
       const double share = begin / (begin - end);
       const double v = b.begin.y + share * (b.end.y - b.begin.y);
-      if (v > low_of(a) && v < high_of(a)) borders_.push_back(v);
+      if (v > low && v < high) borders_.push_back(v);
     }
+    active_.push_back(i);
   }
 }
 
-void ScanLines::begin() {
+void ScanLines::sort_edges() {
   order_.resize(edges_.size());
   std::iota(order_.begin(), order_.end(), 0U);
   std::ranges::sort(order_, {}, [&](std::uint32_t i) {
     return low_of(edges_[i]);
   });
+}
+
+void ScanLines::begin() {
   next_ = 0;
   active_.clear();
 }

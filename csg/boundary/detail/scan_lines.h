@@ -7,8 +7,8 @@
 // cross, a length changes linearly, so that the one in the middle times the
 // distance of the breakpoints is the area exactly. Nothing depends on how
 // crossings are ordered that rounding makes one: between them there is no area.
-// Where breakpoints are many, lines are evenly spaced and the area is a good
-// estimate, at a cost that is bounded.
+// Where breakpoints are more than the caller pays for, a few lines are evenly
+// spaced and the area is an estimate.
 
 #include <algorithm>
 #include <cstddef>
@@ -54,12 +54,15 @@ class ScanLines {
     }
   }
 
+  std::size_t size() const { return edges_.size(); }
+
   // Calls visit(from, to, crossings) for slabs from `low` to `high` in ascending
   // order, with the crossings of the line in its middle, ascending. Returns
-  // whether they end at all breakpoints.
+  // whether they end at all breakpoints, which they do where these are at most
+  // `most`.
   template <typename Visit>
-  bool visit(double low, double high, const Visit& visit) {
-    const bool is_exact = find_slabs(low, high);
+  bool visit(double low, double high, std::size_t most, const Visit& visit) {
+    const bool is_exact = find_slabs(low, high, most);
     begin();
     for (std::size_t i = 1; i < borders_.size(); ++i) {
       if (borders_[i] - borders_[i - 1] <= kLeastSlab) continue;
@@ -73,8 +76,9 @@ class ScanLines {
   // A slab that is less high has no area [mm].
   static constexpr double kLeastSlab = 1e-9;
 
-  bool find_slabs(double low, double high);
+  bool find_slabs(double low, double high, std::size_t most);
   void add_crossings();
+  void sort_edges();
   void begin();
   // The crossings of a line above all of those before.
   std::span<const Crossing> cross(double v);

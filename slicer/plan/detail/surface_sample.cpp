@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,9 @@ namespace {
 
 using csg::BoundaryFace;
 using csg::OpenFace;
+
+// With more lines than this, the area of a face costs too much to be exact.
+constexpr std::size_t kMostLines = 256;
 
 // The area of a plane polygon with holes [mm²].
 double area_of(const BoundaryFace& face) {
@@ -50,16 +54,18 @@ double area_of_draw(const std::vector<OpenFace>& open, std::size_t count) {
 
 class Sampler {
  public:
-  explicit Sampler(const csg::Scene& scene) : finder_(scene) {}
+  explicit Sampler(const csg::Scene& scene)
+      : scene_(scene), finder_(scene) {}
 
-  SurfaceSample sample(std::size_t most_problems) {
+  SurfaceSample sample(std::size_t most_edges) {
     open_ = finder_.take_settled(
         [](const Box3&) { return true; },
         [&](const BoundaryFace& face) {
           add({face.normal, area_of(face), csg::box_of(face)}, 1);
         });
-    is_solved_.assign(open_.size(), false);
-    const double draw = area_of_draw(open_, most_problems);
+    measured_.resize(open_.size());
+    is_taken_.assign(open_.size(), false);
+    const double draw = area_of_draw(open_, affordable_faces(most_edges));
     for (std::size_t i = 0; i < open_.size(); ++i) {
       if (open_[i].area >= draw) solve(i, 1);
     }
@@ -78,11 +84,30 @@ class Sampler {
     sample_.box.add(part.box);
   }
 
+  const csg::MeasuredFace& measure(std::size_t open) {
+    if (!measured_[open]) {
+      measured_[open] = finder_.measure(open_[open], kMostLines);
+    }
+    return *measured_[open];
+  }
+
+  // Returns how many faces cost so many edges, by a few from everywhere.
+  std::size_t affordable_faces(std::size_t most_edges) {
+    constexpr std::size_t kTried = 64;
+    constexpr std::size_t kLeast = 256;
+    if (open_.size() <= kLeast) return kLeast;
+    std::size_t edges = kTried;  // also what a face costs that has none
+    for (std::size_t i = 0; i < kTried; ++i) {
+      edges += measure(i * open_.size() / kTried).edges;
+    }
+    return std::max(kLeast, most_edges * kTried / edges);
+  }
+
   // Returns the area of boundary that the face has.
   double solve(std::size_t open, double weight) {
-    is_solved_[open] = true;
+    is_taken_[open] = true;
     double area = 0;
-    for (const csg::BoundaryPart& part : finder_.measure(open_[open]).parts) {
+    for (const csg::BoundaryPart& part : measure(open).parts) {
       area += part.area;
       add(part, weight);
     }
@@ -96,8 +121,10 @@ class Sampler {
     };
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      const double reach = reach_of(open_[i].box);
-      if (!is_solved_[i] && reach > reach_of(sample_.box) + kSameLength) {
+      // Leaves reach beyond the scene's box, the surface does not.
+      const double reach =
+          std::min(reach_of(open_[i].box), reach_of(scene_.box));
+      if (!is_taken_[i] && reach > reach_of(sample_.box) + kSameLength) {
         order.emplace_back(-reach, i);
       }
     }
@@ -115,7 +142,7 @@ class Sampler {
     double next = draw / 2;
     std::vector<double> shares;
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      if (is_solved_[i]) continue;
+      if (is_taken_[i]) continue;
       passed += open_[i].area;
       if (passed < next) continue;
       next += draw;
@@ -134,17 +161,18 @@ class Sampler {
     return 2 * draw * std::sqrt(sum);
   }
 
+  const csg::Scene& scene_;
   csg::BoundaryFinder finder_;
   std::vector<OpenFace> open_;
-  std::vector<bool> is_solved_;
+  std::vector<std::optional<csg::MeasuredFace>> measured_;
+  std::vector<bool> is_taken_;
   SurfaceSample sample_;
 };
 
 }  // namespace
 
-SurfaceSample sample_surface(const csg::Scene& scene,
-                             std::size_t most_problems) {
-  return Sampler(scene).sample(most_problems);
+SurfaceSample sample_surface(const csg::Scene& scene, std::size_t most_edges) {
+  return Sampler(scene).sample(most_edges);
 }
 
 }  // namespace lamina::slicer

@@ -40,9 +40,8 @@ struct SurfaceSample {
   double doubt = 0;
 };
 
-// most_problems  plane problems solved, but for a few that say how far the
-//                surface reaches
-SurfaceSample sample_surface(const csg::Scene& scene,
-                             std::size_t most_problems);
+// most_edges  of plane problems: about as many are cut, but for a few faces that
+//             say how far the surface reaches
+SurfaceSample sample_surface(const csg::Scene& scene, std::size_t most_edges);
 
 }  // namespace lamina::slicer
