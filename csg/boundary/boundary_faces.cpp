@@ -312,7 +312,8 @@ class BoundaryFinder::Search {
     emit(plane, -normal, outline, outside, inside, true);
   }
 
-  // --- Areas by scan lines ----------------------------------------------------
+  // --- Areas by scan lines
+  // ----------------------------------------------------
 
   // Edges of the face itself and of earlier ones in its plane; those of leaves
   // have their place in live_, and their sides.
@@ -352,7 +353,7 @@ class BoundaryFinder::Search {
       add_contour(flat, kOutline);
     }
     Settled known;
-    add_leaves(face, plane, window, known);
+    add_leaves(face, plane, reach_around(window), known);
     std::array<Half, 2> halves;
     MeasuredFace measured;
     if (!program_.is_decided()) {
@@ -377,12 +378,17 @@ class BoundaryFinder::Search {
     }
   }
 
-  void add_leaves(const OpenFace& face, const Plane& plane, const Box2& window,
+  // Edges and vertices often lie on the window's border, and edges often lead
+  // diagonally to its corners. Lines enter farther out, at odd places, where
+  // the rounding of no edge decides.
+  static Box2 reach_around(const Box2& window) {
+    const Vec2 margin =
+        Vec2(0.01371, 0.00883) * window.size() + Vec2(17, 29) * kTieDistance;
+    return {window.low - margin, window.high + margin};
+  }
+
+  void add_leaves(const OpenFace& face, const Plane& plane, const Box2& reach,
                   Settled& known) {
-    // Edges and vertices often lie on the window's border. Lines enter farther
-    // out, where the rounding of no edge decides.
-    const Vec2 margin = 0.01371 * window.size() + 17 * kTieDistance;
-    const Box2 reach{window.low - margin, window.high + margin};
     std::vector<Region> earlier;
     for (const std::uint32_t other : face.others) {
       add_leaf(other, face, plane, reach, known, earlier);
@@ -407,10 +413,10 @@ class BoundaryFinder::Search {
       add_earlier(other, section.faces(), face.face, plane, earlier);
     }
     LiveLeaf leaf{other, {section.corner_winding(Side::kBelow), 0}};
-    leaf.base[1] = is_touched ? section.corner_winding(Side::kAbove)
-                              : leaf.base[0];
-    std::size_t edges = add_edges(section.edges(Side::kBelow), reach,
-                                  is_touched ? 1 : 3);
+    leaf.base[1] =
+        is_touched ? section.corner_winding(Side::kAbove) : leaf.base[0];
+    std::size_t edges =
+        add_edges(section.edges(Side::kBelow), reach, is_touched ? 1 : 3);
     if (is_touched) edges += add_edges(section.edges(Side::kAbove), reach, 2);
     const bool is_inside = leaf.base[0] != 0;
     if (edges == 0 && is_inside == (leaf.base[1] != 0) && other != self_) {
@@ -432,15 +438,15 @@ class BoundaryFinder::Search {
       if ((begin.x < reach.low.x) == (end.x < reach.low.x)) continue;
       const double share = (reach.low.x - begin.x) / (end.x - begin.x);
       const double v = begin.y + share * (end.y - begin.y);
-      if (v > reach.low.y) entries_.push_back({v, tag, begin.x < end.x ? 1 : -1});
+      if (v > reach.low.y)
+        entries_.push_back({v, tag, begin.x < end.x ? 1 : -1});
     }
     return edges.size();
   }
 
   bool measure_lines(const Plane& plane, const Box2& window,
                      std::size_t most_lines, std::array<Half, 2>& halves) {
-    const double entry = window.low.x - 0.01371 * window.size().x -
-                         17 * kTieDistance;
+    const double entry = reach_around(window).low.x;
     std::ranges::sort(entries_, {}, &Entry::v);
     outside_ = state_;
     if (is_embedded()) state_.flip(self_, true);
@@ -682,14 +688,9 @@ MeasuredFace BoundaryFinder::measure(const OpenFace& face,
   return search_->measure(face, most_lines);
 }
 
-void BoundaryFinder::take_all(const IsWanted& is_wanted,
-                              const TakeFace& take) {
-  search_->find(is_wanted, take, nullptr);
-}
-
 void visit_boundary_faces(const Scene& scene, const IsWanted& is_wanted,
                           const TakeFace& take) {
-  BoundaryFinder(scene).take_all(is_wanted, take);
+  BoundaryFinder::Search(scene).find(is_wanted, take, nullptr);
 }
 
 bool is_upright(const OpenFace& face) {

@@ -78,23 +78,21 @@ struct BoundaryPart {
 // and to the other.
 struct MeasuredFace {
   std::vector<BoundaryPart> parts;
-  // false: areas are estimates. Thin parts may be left out, and boxes too small.
+  // false: areas are estimates. Thin parts may be left out, and boxes too
+  // small.
   bool is_exact = true;
   std::size_t edges = 0;  // that were looked at: the cost
 };
 
 // Finds the boundary where plane problems are dear and few of them matter: what
-// boxes settle comes at once, and the caller says which plane problems to solve,
-// in which order. The scene must outlive it.
+// boxes settle comes at once, and the caller says which plane problems to
+// solve, in which order. The scene must outlive it.
 class BoundaryFinder {
  public:
   explicit BoundaryFinder(const Scene& scene);
   ~BoundaryFinder();
   BoundaryFinder(const BoundaryFinder&) = delete;
   BoundaryFinder& operator=(const BoundaryFinder&) = delete;
-
-  // Takes all faces that are wanted, as visit_boundary_faces() does.
-  void take_all(const IsWanted& is_wanted, const TakeFace& take);
 
   // Takes the faces of leaves that are boundary as a whole, and returns those
   // that are open, of all that are wanted.
@@ -111,6 +109,10 @@ class BoundaryFinder {
   MeasuredFace measure(const OpenFace& face, std::size_t most_lines);
 
  private:
+  friend void visit_boundary_faces(const Scene& scene,
+                                   const IsWanted& is_wanted,
+                                   const TakeFace& take);
+
   class Search;
   std::unique_ptr<Search> search_;
 };

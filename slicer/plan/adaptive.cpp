@@ -31,7 +31,7 @@ constexpr double kReach = kTieDistance;
 constexpr double kMostStates = 3e7;
 
 // What a plane problem costs less than.
-constexpr std::size_t kManyLines = 10'000;
+constexpr std::size_t kManyLines = 1000;
 
 // Whether a face goes on from a corner upwards, and downwards.
 struct Ways {
@@ -259,9 +259,9 @@ class SurfaceReader {
     const auto upright = std::ranges::stable_partition(
         open, [](const csg::OpenFace& face) { return !is_upright(face); });
     const std::span slopes(open.begin(), upright.begin());
+    // In one limit the outermost come first, as the finder found them.
     std::ranges::stable_sort(slopes, {}, [&](const csg::OpenFace& face) {
-      return std::pair(limits_.plies_for(std::abs(face.normal.z)),
-                       face.box.low.z - face.box.high.z);
+      return limits_.plies_for(std::abs(face.normal.z));
     });
     for (const csg::OpenFace& face : slopes) read_slope(face);
     read_upright(upright);
@@ -297,7 +297,7 @@ class SurfaceReader {
     for (const csg::OpenFace& wall : walls) {
       bool is_met = false;
       tree.visit(
-          [&](const Box3& end) { 
+          [&](const Box3& end) {
             return !is_met && csg::do_meet(end, wall.box);
           },
           [&](std::uint32_t) { is_met = true; });
@@ -309,9 +309,8 @@ class SurfaceReader {
   }
 
   void solve(const csg::OpenFace& face) {
-    finder_.solve(face, [&](const csg::BoundaryFace& part) {
-      limits_.take(part);
-    });
+    finder_.solve(face,
+                  [&](const csg::BoundaryFace& part) { limits_.take(part); });
   }
 
   csg::BoundaryFinder& finder_;

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kMostEdges = 150'000;
 
 // What a plane problem costs less than.
-constexpr std::size_t kManyLines = 10'000;
+constexpr std::size_t kManyLines = 1000;
 
 // What looks down by more than 45° wants supports; 45° but for rounding does
 // not.
@@ -143,7 +143,8 @@ OrientationChoice choose_orientation(const csg::Scene& scene, double thickness,
   keep_best("what fits", 0, [](const O& o) { return o.fits ? 0. : 1.; });
   keep_best("the least cusp error", same_area * thickness,
             [](const O& o) { return o.cusp_error; });
-  keep_best("the least height", kSameLength, [](const O& o) { return o.size.z; });
+  keep_best("the least height", kSameLength,
+            [](const O& o) { return o.size.z; });
   keep_best("the least overhang", same_area,
             [](const O& o) { return o.overhang; });
   keep_best("the most on the bed", same_area,

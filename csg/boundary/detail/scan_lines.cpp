@@ -72,9 +72,8 @@ void ScanLines::add_crossings() {
 void ScanLines::sort_edges() {
   order_.resize(edges_.size());
   std::iota(order_.begin(), order_.end(), 0U);
-  std::ranges::sort(order_, {}, [&](std::uint32_t i) {
-    return low_of(edges_[i]);
-  });
+  std::ranges::sort(order_, {},
+                    [&](std::uint32_t i) { return low_of(edges_[i]); });
 }
 
 void ScanLines::begin() {

@@ -3,8 +3,8 @@
 //
 // An area needs no contours. Lines of constant v cross the edges of all
 // operands; on a line the Boolean is counting, as on the moving ray, and gives
-// lengths. Between two breakpoints, which are ends of edges and places where two
-// cross, a length changes linearly, so that the one in the middle times the
+// lengths. Between two breakpoints, which are ends of edges and places where
+// two cross, a length changes linearly, so that the one in the middle times the
 // distance of the breakpoints is the area exactly. Nothing depends on how
 // crossings are ordered that rounding makes one: between them there is no area.
 // Where breakpoints are more than the caller pays for, a few lines are evenly
@@ -56,10 +56,10 @@ class ScanLines {
 
   std::size_t size() const { return edges_.size(); }
 
-  // Calls visit(from, to, crossings) for slabs from `low` to `high` in ascending
-  // order, with the crossings of the line in its middle, ascending. Returns
-  // whether they end at all breakpoints, which they do where these are at most
-  // `most`.
+  // Calls visit(from, to, crossings) for slabs from `low` to `high` in
+  // ascending order, with the crossings of the line in its middle, ascending.
+  // Returns whether they end at all breakpoints, which they do where these are
+  // at most `most`.
   template <typename Visit>
   bool visit(double low, double high, std::size_t most, const Visit& visit) {
     const bool is_exact = find_slabs(low, high, most);
@@ -84,7 +84,7 @@ class ScanLines {
   std::span<const Crossing> cross(double v);
 
   std::vector<Edge> edges_;
-  std::vector<double> level_;  // v of edges that no line crosses
+  std::vector<double> level_;          // v of edges that no line crosses
   std::vector<double> borders_;        // of slabs
   std::vector<std::uint32_t> order_;   // edges by their lower ends
   std::size_t next_ = 0;               // in order_

@@ -33,14 +33,15 @@ struct SurfacePart {
 
 struct SurfaceSample {
   std::vector<SurfacePart> parts;
-  Box3 box;         // of the whole surface, up to kSameLength; empty without one
+  Box3 box;  // of the whole surface, up to kSameLength; empty without one
   double area = 0;  // of the whole surface [mm²]
   // Sums of areas are off by more in one of twenty cases; 0 where all faces
   // were solved.
   double doubt = 0;
 };
 
-// most_edges  of plane problems: about as many are cut, but for a few faces that
+// most_edges  of plane problems: about as many are cut, but for a few faces
+// that
 //             say how far the surface reaches
 SurfaceSample sample_surface(const csg::Scene& scene, std::size_t most_edges);
 

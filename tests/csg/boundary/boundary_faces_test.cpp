@@ -205,6 +205,84 @@ TEST_F(BoundaryFaces, ObeyTheLawsOfVolume) {
   }
 }
 
+// Faces that look both ways count by the side to which they look.
+struct SideSums {
+  double area = 0;
+  Vec3 vector = Vec3(0);
+  Box3 box;
+
+  void add(const Vec3& normal, double part, const Box3& part_box) {
+    area += part;
+    vector += part * normal;
+    box.add(part_box);
+  }
+};
+
+// Scan lines find the areas and the boxes of what plane problems find, for
+// solids that share planes and edges.
+TEST_F(BoundaryFaces, AreMeasuredAsTheyAreSolved) {
+  std::mt19937 random(5);
+  const auto number = [&](int n) { return static_cast<int>(random() % n); };
+  const auto solid = [&]() -> const Node* {
+    const Vec3 size(1 + number(3), 1 + number(3), 1 + number(3));
+    const Vec3 shift(number(3), number(3), number(3));
+    if (number(2) == 0) return b.translate(shift, {b.cube(size)});
+    return b.translate(shift,
+                       {b.cylinder(size.z, size.x, number(2), 3 + number(12))});
+  };
+  int faces = 0;
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE(round);
+    const Lowered lowered = run({unite({solid(), solid()}),
+                                 subtract({solid(), unite({solid(), solid()})}),
+                                 intersect({solid(), solid()})});
+    if (!lowered.scene()) continue;
+    BoundaryFinder finder(*lowered.scene());
+    const auto all = [](const Box3&) { return true; };
+    for (const OpenFace& open :
+         finder.take_settled(all, [](const BoundaryFace&) {})) {
+      SideSums solved;
+      finder.solve(open, [&](const BoundaryFace& face) {
+        solved.add(face.normal, glm::dot(face.normal, area_vector(face)),
+                   box_of(face));
+      });
+      SideSums measured;
+      const MeasuredFace result = finder.measure(open, 10'000);
+      EXPECT_TRUE(result.is_exact);
+      for (const BoundaryPart& part : result.parts) {
+        measured.add(part.normal, part.area, part.box);
+      }
+      ++faces;
+      ASSERT_NEAR(measured.area, solved.area, kRounding);
+      ASSERT_NEAR(glm::distance(measured.vector, solved.vector), 0, kRounding);
+      if (solved.area < kRounding) continue;
+      EXPECT_NEAR(glm::distance(measured.box.low, solved.box.low), 0, 1e-5);
+      EXPECT_NEAR(glm::distance(measured.box.high, solved.box.high), 0, 1e-5);
+    }
+  }
+  EXPECT_GT(faces, 3000);
+}
+
+TEST_F(BoundaryFaces, MeasuredByFewLinesAreEstimates) {
+  const Scene scene = run_solid(
+      {subtract({b.cube({10, 10, 1}),
+                 b.translate({5, 5, -1}, {b.cylinder(3, 4, 4, 200)})})});
+  BoundaryFinder finder(scene);
+  const auto open = finder.take_settled([](const Box3&) { return true; },
+                                        [](const BoundaryFace&) {});
+  double area = 0;
+  bool is_exact = true;
+  for (const OpenFace& face : open) {
+    if (std::abs(face.normal.z) < 0.5) continue;
+    const MeasuredFace measured = finder.measure(face, 100);
+    is_exact = is_exact && measured.is_exact;
+    for (const BoundaryPart& part : measured.parts) area += part.area;
+  }
+  EXPECT_FALSE(is_exact);
+  const double disk = 100 * 16 * std::sin(2 * M_PI / 200);
+  EXPECT_NEAR(area / (2 * (100 - disk)), 1, 0.01);
+}
+
 // Leaves that cross each other are not taken apart where another hides them.
 TEST_F(BoundaryFaces, OfHiddenLeavesAreNotLookedAt) {
   TreeBuilder::Children balls;
