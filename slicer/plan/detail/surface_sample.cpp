@@ -61,11 +61,12 @@ class Sampler {
   explicit Sampler(const csg::Scene& scene) : scene_(scene), finder_(scene) {}
 
   SurfaceSample sample(std::size_t most_edges) {
-    open_ = finder_.take_settled(
-        [](const Box3&) { return true; },
-        [&](const BoundaryFace& face) {
-          add({face.normal, area_of(face), csg::box_of(face)}, 1);
-        });
+    open_ = finder_.take_settled([](const Box3&) { return true; },
+                                 [&](const BoundaryFace& face) {
+                                   const Box3 box = csg::box_of(face);
+                                   add({face.normal, area_of(face), box}, 1);
+                                   sample_.box.add(box);
+                                 });
     measured_.resize(open_.size());
     is_taken_.assign(open_.size(), false);
     const double draw = area_of_draw(open_, affordable_faces(most_edges));
@@ -85,7 +86,6 @@ class Sampler {
   void add(const csg::BoundaryPart& part, double weight) {
     sample_.parts.push_back({part.normal, weight * part.area, part.box});
     sample_.area += weight * part.area;
-    sample_.box.add(part.box);
   }
 
   const csg::MeasuredFace& measure(std::size_t open) {
@@ -119,11 +119,13 @@ class Sampler {
     for (const csg::BoundaryPart& part : measured.parts) {
       area += part.area;
       add(part, weight);
+      if (measured.is_exact) sample_.box.add(part.box);
     }
     return area;
   }
 
-  // Solves what may reach beyond all that is known, the outermost first.
+  // Looks at what may reach beyond all that is known, the outermost first.
+  // Estimates do not say how far.
   void solve_reaching(int axis, double sign) {
     const auto reach_of = [&](const Box3& box) {
       return sign > 0 ? box.high[axis] : -box.low[axis];
@@ -133,14 +135,19 @@ class Sampler {
       // Leaves reach beyond the scene's box, the surface does not.
       const double reach =
           std::min(reach_of(open_[i].box), reach_of(scene_.box));
-      if (!is_taken_[i] && reach > reach_of(sample_.box) + kSameLength) {
+      const bool is_known = is_taken_[i] && measured_[i]->is_exact;
+      if (!is_known && reach > reach_of(sample_.box) + kSameLength) {
         order.emplace_back(-reach, i);
       }
     }
     std::ranges::sort(order);
     for (const auto& [reach, i] : order) {
       if (-reach <= reach_of(sample_.box) + kSameLength) break;
-      solve(i, 1);
+      if (!is_taken_[i]) solve(i, 1);
+      if (measured_[i]->is_exact) continue;
+      finder_.solve(open_[i], [&](const BoundaryFace& face) {
+        sample_.box.add(csg::box_of(face));
+      });
     }
   }
 
