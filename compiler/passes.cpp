@@ -92,10 +92,7 @@ csg::EvaluateOptions evaluate_options(const Request& request) {
 csg::LowerOptions lower_options(const GeometryRequest& request,
                                 Readers& readers) {
   csg::LowerOptions options;
-  if (request.axis != kAutomaticAxis) {
-    options.world_from_design =
-        slicer::turn_to_axis(request.axis, request.turn);
-  }
+  options.world_from_design = turn_of(request);
   options.chordal_error = request.chordal_error;
   options.decimation = request.decimation;
   options.module_folders = readers.module_folders;
@@ -203,6 +200,13 @@ Readers::Readers(const DesignRequest& request, const FileAccess& access,
       typesetter(module_folders, diagnostics, access),
       cad_reader(module_folders, diagnostics) {}
 
+Affine turn_of(const GeometryRequest& request) {
+  if (request.axis == kAutomaticAxis) return Affine(1.0);
+  const Affine turn = slicer::turn_to_axis(request.axis, request.turn);
+  if (!request.up) return turn;
+  return turn * Mat4(slicer::turn_upwards(*request.up));
+}
+
 LoadedDesign load(const DesignRequest& request, Loader& loader,
                   Diagnostics& diagnostics) {
   LoadedDesign design;
@@ -303,7 +307,7 @@ std::optional<slicer::HollowReport> hollow(csg::Lowered& lowered,
   slicer::HollowSizes sizes = *request.hollow;
   const GeometryRequest& geometry = request.geometry;
   if (!sizes.drains.empty()) {
-    const Affine turn = slicer::turn_to_axis(geometry.axis, geometry.turn);
+    const Affine turn = turn_of(geometry);
     for (slicer::DrainPlace& drain : sizes.drains) {
       drain.place = geometry.scale * (turn * Vec4(drain.place, 0));
     }

@@ -41,6 +41,10 @@ struct LoadedDesign {
 LoadedDesign load(const DesignRequest& request, Loader& loader,
                   Diagnostics& diagnostics);
 
+// How the design is turned before it is sliced; the same for --axis auto, which
+// turns the solid itself.
+Affine turn_of(const GeometryRequest& request);
+
 // What reads fonts and CAD files for the passes of one run.
 struct Readers {
   Readers(const DesignRequest& request, const FileAccess& access,

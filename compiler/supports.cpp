@@ -82,6 +82,11 @@ std::vector<std::string> with_files(std::vector<std::string> lines,
   return lines;
 }
 
+SupportLines lines_of(const Request& request) {
+  return {with_files(request.support_lines.only, request.design.path),
+          with_files(request.support_lines.without, request.design.path)};
+}
+
 // Whether a line, "ring.scad:12", made the leaf or called what made it.
 bool is_of_line(const csg::Instance& instance, std::string_view line) {
   const auto fits = [&](const SourceRange& range) {
@@ -103,33 +108,6 @@ bool is_of_lines(const csg::Instance& instance,
   return std::ranges::any_of(lines, [&](const std::string& line) {
     return is_of_line(instance, line);
   });
-}
-
-// The leaves whose tips the design or the request decides, by their diameter:
-// where none are wanted comes first.
-std::vector<slicer::MarkedSolid> marked_solids(
-    const csg::Scene& scene, const std::vector<slicer::Layer>& layers,
-    const SupportLines& lines) {
-  const auto tip_of = [&](const csg::Instance& instance) {
-    if (is_of_lines(instance, lines.without)) return 0.0;
-    if (!lines.only.empty() && !is_of_lines(instance, lines.only)) return 0.0;
-    // It comes from a float.
-    return std::round(double{instance.support_tip} * 1e4) / 1e4;
-  };
-  std::set<double> tips;
-  for (const csg::Instance& instance : scene.instances) {
-    const double tip = tip_of(instance);  // NaN where it means nothing
-    if (tip >= 0) tips.insert(tip);
-  }
-  slicer::Settings settings;
-  settings.heights = heights_of(layers);
-  std::vector<slicer::MarkedSolid> marked;
-  for (const double tip : tips) {
-    const auto leaves = slicer::leaves_of(
-        scene, [&](const csg::Instance& one) { return tip_of(one) == tip; });
-    marked.push_back({tip, slice_all(*leaves, settings)});
-  }
-  return marked;
 }
 
 void warn_of_unheld(const slicer::SupportPlan& plan, Diagnostics& diagnostics) {
@@ -192,6 +170,32 @@ void name_lines(const csg::Scene& scene,
 
 }  // namespace
 
+std::vector<slicer::MarkedSolid> marked_solids(
+    const csg::Scene& scene, const std::vector<slicer::Layer>& layers,
+    const Request& request) {
+  const SupportLines lines = lines_of(request);
+  const auto tip_of = [&](const csg::Instance& instance) {
+    if (is_of_lines(instance, lines.without)) return 0.0;
+    if (!lines.only.empty() && !is_of_lines(instance, lines.only)) return 0.0;
+    // It comes from a float.
+    return std::round(double{instance.support_tip} * 1e4) / 1e4;
+  };
+  std::set<double> tips;
+  for (const csg::Instance& instance : scene.instances) {
+    const double tip = tip_of(instance);  // NaN where it means nothing
+    if (tip >= 0) tips.insert(tip);
+  }
+  slicer::Settings settings;
+  settings.heights = heights_of(layers);
+  std::vector<slicer::MarkedSolid> marked;
+  for (const double tip : tips) {
+    const auto leaves = slicer::leaves_of(
+        scene, [&](const csg::Instance& one) { return tip_of(one) == tip; });
+    marked.push_back({tip, slice_all(*leaves, settings)});
+  }
+  return marked;
+}
+
 std::optional<slicer::SupportPlan> plan_supports(const Request& request,
                                                  std::size_t evaluation_stack,
                                                  TemporaryFiles& files,
@@ -215,15 +219,12 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
     throw GeometryError(
         "The design has supports already; add them to the design without");
   }
-  const SupportLines lines = {
-      with_files(request.support_lines.only, request.design.path),
-      with_files(request.support_lines.without, request.design.path)};
-  warn_of_marks(scene, lines, diagnostics);
+  warn_of_marks(scene, lines_of(request), diagnostics);
   slicer::SupportPlan plan = slicer::plan_supports(
       layers,
       support_sizes(request,
                     choose_machine(request.output, files.file_access())),
-      marked_solids(scene, layers, lines));
+      marked_solids(scene, layers, request));
   name_lines(scene, layers, plan);
   warn_of_unheld(plan, diagnostics);
   return plan;
@@ -231,8 +232,7 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
 
 std::string support_lines(const slicer::SupportPlan& plan,
                           const GeometryRequest& geometry) {
-  return slicer::support_text(
-      plan, inverse_of(slicer::turn_to_axis(geometry.axis, geometry.turn)));
+  return slicer::support_text(plan, inverse_of(turn_of(geometry)));
 }
 
 }  // namespace lamina::compiler

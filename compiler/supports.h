@@ -3,10 +3,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/diagnostic.h"
 #include "base/file/temporary_files.h"
 #include "compiler/request.h"
+#include "csg/scene.h"
 #include "slicer/supports/support_plan.h"
 
 namespace lamina::compiler {
@@ -22,6 +24,14 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
                                                  std::size_t evaluation_stack,
                                                  TemporaryFiles& files,
                                                  Diagnostics& diagnostics);
+
+// The leaves whose tips the design or the request decides, by their diameter:
+// where none are wanted comes first.
+//
+// layers  of the scene; their heights
+std::vector<slicer::MarkedSolid> marked_solids(
+    const csg::Scene& scene, const std::vector<slicer::Layer>& layers,
+    const Request& request);
 
 // The lines of OpenSCAD that add them to the design's text.
 std::string support_lines(const slicer::SupportPlan& plan,

@@ -92,6 +92,8 @@ void require_heights(const std::vector<double>& heights) {
 
 void refuse_turn(const Request& request) {
   const GeometryRequest& geometry = request.geometry;
+  refuse_if(geometry.up && geometry.axis != "z",
+            "--orient says what points up, not with --axis");
   refuse_if(geometry.turn != 0 && geometry.axis == kAutomaticAxis,
             "--axis auto turns the part itself, if it must; not with --turn");
   refuse_if(!request.supports && (!request.support_lines.only.empty() ||

@@ -42,6 +42,7 @@ std::unique_ptr<Command> make_compare_command();
 std::unique_ptr<Command> make_config_command();
 std::unique_ptr<Command> make_inspect_command();
 std::unique_ptr<Command> make_materials_command();
+std::unique_ptr<Command> make_orient_command();
 std::unique_ptr<Command> make_parts_command();
 std::unique_ptr<Command> make_plate_command();
 std::unique_ptr<Command> make_printers_command();
@@ -61,6 +62,7 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"config", make_config_command},
     NamedCommand{"inspect", make_inspect_command},
     NamedCommand{"materials", make_materials_command},
+    NamedCommand{"orient", make_orient_command},
     NamedCommand{"parts", make_parts_command},
     NamedCommand{"plate", make_plate_command},
     NamedCommand{"printers", make_printers_command},

@@ -128,6 +128,7 @@ More of the design:
                       change nothing: openscad's scripts give them
 
 More of slicing:
+  --orient X,Y,Z      what of the design points up, as 'lamina orient' finds it
   --turn DEG          turn the design about the axis, anticlockwise seen from
                       above [0]
   --drain none|MM|X,Y,Z,MM

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -79,6 +80,20 @@ slicer::SupportSizes sizes_of(const std::string& text) {
     sizes.tip = *tip;
   }
   return sizes;
+}
+
+// text  "0,1,1"
+Vec3 direction_of(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& word : words_of(text)) {
+    const auto value = parse_number(word);
+    if (value) numbers.push_back(*value);
+  }
+  require(
+      numbers.size() == 3 && std::hypot(numbers[0], numbers[1], numbers[2]) > 0,
+      "--orient", "expected the direction that points up, X,Y,Z, not '{}'",
+      text);
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 slicer::HollowSizes& hollow_of(compiler::Request& request) {
@@ -212,6 +227,9 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.choice(
       "--axis", texts(compiler::kAxisWords),
       [&](const std::string& axis) { request.geometry.axis = axis; });
+  options.text("--orient", "direction", [&request](const std::string& text) {
+    request.geometry.up = direction_of(text);
+  });
   options.number("--turn", "degrees", request.geometry.turn);
   options.flag("--supports", [&request](const std::string& size) {
     request.supports = sizes_of(size);

@@ -11,4 +11,7 @@ namespace lamina::csg {
 //       is rounded
 void move_scene(Scene& scene, const Affine& turn, Vec3 shift);
 
+// Turns the scene about the origin by any rotation; boxes are found anew.
+void turn_scene(Scene& scene, const Affine& rotation);
+
 }  // namespace lamina::csg

@@ -154,6 +154,24 @@ OrientationChoice choose_orientation(const csg::Scene& scene, double thickness,
   return choice;
 }
 
+Affine turn_upwards(Vec3 up) {
+  const Vec3 to = glm::normalize(up);
+  const Vec3 axis = glm::cross(to, Vec3(0, 0, 1));
+  const double sine = glm::length(axis);
+  // Straight up, or straight down: then about x.
+  if (sine < 1e-12) return turn_to_axis(to.z > 0 ? "z" : "-z");
+  const Vec3 about = axis / sine;
+  Affine turn(1.0);
+  for (int i = 0; i < 3; ++i) {
+    Vec3 unit(0);
+    unit[i] = 1;
+    // Rodrigues' formula.
+    turn[i] = unit * to.z + glm::cross(about, unit) * sine +
+              about * (about[i] * (1 - to.z));
+  }
+  return turn;
+}
+
 std::string orientation_table(const OrientationChoice& choice) {
   std::string text = fmt::format("building direction {}: {}\n",
                                  choice.all[choice.best].axis, choice.reason);

@@ -32,6 +32,9 @@ inline constexpr std::array<std::string_view, 6> kAxes = {"z",  "x",  "y",
 // degrees  anticlockwise, seen from above
 Affine turn_to_axis(std::string_view axis, double degrees = 0);
 
+// The least turn that makes `up`, of any length but 0, point up.
+Affine turn_upwards(Vec3 up);
+
 // The merits of a direction.
 struct Orientation {
   std::string_view axis;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,6 +38,37 @@ double hold_radius(double tip, double height) {
 std::size_t SupportPlan::count_on_part() const {
   return static_cast<std::size_t>(
       std::ranges::count(supports, SupportEnd::kPart, &Support::end));
+}
+
+double SupportPlan::volume() const {
+  double volume = 0;
+  const auto add_rod = [&](Vec3 from, Vec3 to, double d1, double d2) {
+    volume += std::numbers::pi / 12 * glm::length(to - from) *
+              (d1 * d1 + d1 * d2 + d2 * d2);
+  };
+  for (const Support& support : supports) {
+    for (std::size_t i = 0; i + 1 < support.path.size(); ++i) {
+      add_rod(support.path[i], support.path[i + 1],
+              i == 0 ? support.tip : sizes.pillar, sizes.pillar);
+    }
+    if (support.end != SupportEnd::kFoot) continue;
+    const Vec3 foot = support.path.back();
+    add_rod(foot, foot - Vec3(0, 0, sizes.foot_height), sizes.pillar,
+            sizes.foot);
+  }
+  for (const Brace& brace : braces) {
+    add_rod(brace[0], brace[1], sizes.brace, sizes.brace);
+  }
+  return volume;
+}
+
+double SupportPlan::contact_area() const {
+  double area = 0;
+  for (const Support& support : supports) {
+    const double disk = std::numbers::pi / 4 * support.tip * support.tip;
+    area += support.end == SupportEnd::kPart ? 2 * disk : disk;
+  }
+  return area;
 }
 
 std::string size_text(const SupportPlan& plan) {

@@ -77,6 +77,10 @@ struct SupportPlan {
 
   // Supports that stand on the part.
   std::size_t count_on_part() const;
+
+  // About: where rods meet, both count [mm³]; the disks of all tips [mm²].
+  double volume() const;
+  double contact_area() const;
 };
 
 // "7 supports, 1 of them on the part"

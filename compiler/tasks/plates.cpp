@@ -1,4 +1,4 @@
-#include "compiler/plates.h"
+#include "compiler/tasks/plates.h"
 
 #include <utility>
 

@@ -1,0 +1,354 @@
+#include "compiler/tasks/orient.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <mutex>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "base/parallel.h"
+#include "compiler/compile.h"
+#include "compiler/machine.h"
+#include "compiler/passes.h"
+#include "compiler/supports.h"
+#include "csg/boundary/move_scene.h"
+#include "slicer/plan/orientation.h"
+#include "slicer/slice/slice.h"
+#include "slicer/supports/support_plan.h"
+
+namespace lamina::compiler {
+namespace {
+
+// Layers in which directions are compared first [mm], at least.
+constexpr double kCoarseLayer = 0.1;
+
+// Share of the directions that are spread over the sphere.
+constexpr double kCoarseShare = 0.55;
+// Around each of the best of these there are so many finer ones.
+constexpr std::size_t kNeighbours = 8;
+
+std::vector<Vec3> spread_directions(std::size_t count) {
+  std::vector<Vec3> directions;
+  for (const std::string_view axis : slicer::kAxes) {
+    const Affine turn = slicer::turn_to_axis(axis);
+    directions.push_back({turn[0].z, turn[1].z, turn[2].z});
+  }
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z =
+        1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
+    const double radius = std::sqrt(1 - z * z);
+    const double angle = golden * static_cast<double>(i);
+    directions.push_back(
+        {radius * std::cos(angle), radius * std::sin(angle), z});
+  }
+  return directions;
+}
+
+// Directions around another one, at an angle [rad].
+std::vector<Vec3> neighbours_of(Vec3 up, double angle) {
+  const Vec3 aside = glm::normalize(
+      glm::cross(up, std::abs(up.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0)));
+  const Vec3 other = glm::cross(up, aside);
+  std::vector<Vec3> directions;
+  for (std::size_t i = 0; i < kNeighbours; ++i) {
+    const double turn =
+        2 * std::numbers::pi * static_cast<double>(i) / kNeighbours;
+    directions.push_back(glm::normalize(
+        std::cos(angle) * up +
+        std::sin(angle) * (std::cos(turn) * aside + std::sin(turn) * other)));
+  }
+  return directions;
+}
+
+// Draws layers from the front: what each covers along x; and supports.
+class FrontPicture {
+ public:
+  explicit FrontPicture(const std::vector<slicer::Layer>& layers) {
+    for (const slicer::Layer& layer : layers) add(layer);
+  }
+
+  void add(const slicer::SupportPlan& plan) {
+    for (const slicer::Support& support : plan.supports) {
+      for (std::size_t i = 0; i + 1 < support.path.size(); ++i) {
+        add_rod(support.path[i], support.path[i + 1],
+                i == 0 ? support.tip : plan.sizes.pillar);
+      }
+    }
+    for (const slicer::Brace& brace : plan.braces) {
+      add_rod(brace[0], brace[1], plan.sizes.brace);
+    }
+  }
+
+  std::string take() const {
+    const Vec2 size = box_.size() + Vec2(2);
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} "
+        "{:.2f} {:.2f}\"><g stroke=\"#7f9bb8\" stroke-linecap=\"round\">{}</g>"
+        "<path fill=\"#d9a066\" d=\"{}\"/></svg>",
+        box_.low.x - 1, -box_.high.y - 1, size.x, size.y, rods_, part_);
+  }
+
+ private:
+  void add(const slicer::Layer& layer) {
+    std::vector<std::pair<double, double>> spans;
+    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+      Box2 box;
+      box.add(layer.contours.loop(i));
+      spans.emplace_back(box.low.x, box.high.x);
+    }
+    std::ranges::sort(spans);
+    for (std::size_t i = 0; i < spans.size();) {
+      auto [low, high] = spans[i];
+      for (++i; i < spans.size() && spans[i].first <= high; ++i) {
+        high = std::max(high, spans[i].second);
+      }
+      box_.add(Vec2(low, layer.bottom));
+      box_.add(Vec2(high, layer.top));
+      fmt::format_to(std::back_inserter(part_),
+                     "M{:.2f} {:.2f}h{:.2f}v{:.2f}h{:.2f}z", low, -layer.bottom,
+                     high - low, layer.bottom - layer.top - 0.02, low - high);
+    }
+  }
+
+  void add_rod(Vec3 from, Vec3 to, double width) {
+    box_.add(Vec2(from.x, from.z));
+    box_.add(Vec2(to.x, to.z));
+    fmt::format_to(std::back_inserter(rods_),
+                   "<path stroke-width=\"{:.2f}\" d=\"M{:.2f} {:.2f}L{:.2f} "
+                   "{:.2f}\"/>",
+                   width, from.x, -from.z, to.x, -to.z);
+  }
+
+  Box2 box_;
+  std::string part_;
+  std::string rods_;
+};
+
+// Whether a is as good as b in all that counts, and better in some.
+template <std::size_t count>
+bool dominates(const std::array<double, count>& a,
+               const std::array<double, count>& b) {
+  bool is_better = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (a[i] > b[i]) return false;
+    is_better = is_better || a[i] < b[i];
+  }
+  return is_better;
+}
+
+// The indices of what is judged, front by front: first what no other dominates,
+// then what only these do. Within a front the least sum of relative figures
+// comes first.
+template <typename Figures>
+std::vector<std::size_t> in_order(const std::vector<JudgedDirection>& judged,
+                                  const Figures& figures, bool only_first) {
+  using Row = decltype(figures(judged.front()));
+  std::vector<Row> rows;
+  for (const JudgedDirection& one : judged) rows.push_back(figures(one));
+  Row least = rows.front();
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      least[i] = std::min(least[i], row[i]);
+    }
+  }
+  const auto cost = [&](std::size_t i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < least.size(); ++k) {
+      sum += (rows[i][k] + 1) / (least[k] + 1);
+    }
+    return sum;
+  };
+  std::vector<std::size_t> left(judged.size());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
+  std::vector<std::size_t> ordered;
+  while (!left.empty()) {
+    std::vector<std::size_t> front;
+    std::ranges::copy_if(left, std::back_inserter(front), [&](std::size_t i) {
+      return std::ranges::none_of(left, [&](std::size_t other) {
+        return dominates(rows[other], rows[i]);
+      });
+    });
+    std::ranges::stable_sort(front, {}, cost);
+    std::ranges::copy(front, std::back_inserter(ordered));
+    if (only_first) break;
+    std::erase_if(
+        left, [&](std::size_t i) { return std::ranges::count(front, i) > 0; });
+  }
+  return ordered;
+}
+
+class Search {
+ public:
+  Search(const csg::Scene& scene, const Request& request,
+         const Machine& machine, const OrientOptions& options)
+      : scene_(scene),
+        request_(request),
+        machine_(machine),
+        settings_(settings_of(request, machine)),
+        options_(options),
+        steps_(options.directions + options.planned) {
+    settings_.threads = 1;
+    sizes_ = options.sizes.value_or(slicer::SupportSizes{.tip = 0});
+    if (sizes_.tip == 0) {
+      sizes_.tip = machine.material && machine.material->support_tip > 0
+                       ? machine.material->support_tip
+                       : slicer::SupportSizes().tip;
+    }
+  }
+
+  OrientResult find() {
+    const auto coarse = static_cast<std::size_t>(
+        kCoarseShare * static_cast<double>(options_.directions));
+    std::vector<JudgedDirection> judged = judge_all(spread_directions(coarse));
+    const double step =
+        std::sqrt(4 * std::numbers::pi / static_cast<double>(judged.size()));
+    std::vector<Vec3> finer;
+    for (const std::size_t i : in_order(judged, &quick_figures, false)) {
+      if (judged.size() + finer.size() + kNeighbours > options_.directions) {
+        break;
+      }
+      std::ranges::copy(neighbours_of(judged[i].up, step / 2),
+                        std::back_inserter(finer));
+    }
+    std::ranges::move(judge_all(finer), std::back_inserter(judged));
+    OrientResult result;
+    result.judged = judged.size();
+    std::vector<std::size_t> order = in_order(judged, &quick_figures, false);
+    order.resize(std::min(order.size(), options_.planned));
+    std::vector<JudgedDirection> planned;
+    planned.push_back(judged.front());  // as drawn: the first axis is z
+    for (const std::size_t i : order) {
+      if (i != 0) planned.push_back(judged[i]);
+    }
+    for_each_index(planned.size(), [&](std::size_t i) {
+      plan_supports(planned[i]);
+      step_on();
+    });
+    result.drawn = planned.front();
+    for (const std::size_t i : in_order(planned, &print_figures, true)) {
+      result.listed.push_back(planned[i]);
+    }
+    return result;
+  }
+
+ private:
+  // What counts before there are supports, and with them.
+  static std::array<double, 3> quick_figures(const JudgedDirection& one) {
+    return {one.overhang, one.cups, one.height};
+  }
+  static std::array<double, 5> print_figures(const JudgedDirection& one) {
+    return {static_cast<double>(one.unheld), one.contact_area,
+            one.support_volume, one.cups, one.height};
+  }
+
+  csg::Scene turned(Vec3 up) const {
+    csg::Scene scene = scene_;
+    csg::turn_scene(scene, slicer::turn_upwards(up));
+    return scene;
+  }
+
+  std::vector<JudgedDirection> judge_all(const std::vector<Vec3>& directions) {
+    std::vector<JudgedDirection> judged(directions.size());
+    for_each_index(directions.size(), [&](std::size_t i) {
+      judged[i].up = directions[i];
+      judge(judged[i]);
+      step_on();
+    });
+    return judged;
+  }
+
+  void judge(JudgedDirection& one) const {
+    slicer::Settings settings = settings_;
+    settings.layer_thickness = std::max(settings.layer_thickness, kCoarseLayer);
+    slicer::LayerDrain sink;
+    Diagnostics unshown;
+    const csg::Scene scene = turned(one.up);
+    const slicer::SliceReport report = slicer::slice(
+        scene, slicer::plan_layers(scene, settings), settings, sink, unshown);
+    one.height = report.box.size().z;
+    for (const slicer::Finding& finding : report.print->findings) {
+      if (finding.is_minor) continue;
+      switch (finding.kind) {
+        case slicer::FindingKind::kIsland:
+        case slicer::FindingKind::kLoosePart:
+          ++one.islands;
+          one.overhang += finding.area;
+          break;
+        case slicer::FindingKind::kOverhang:
+          one.overhang += finding.area;
+          break;
+        case slicer::FindingKind::kSuctionCup:
+          one.cups += finding.volume;
+          break;
+        case slicer::FindingKind::kResinTrap:
+          break;  // the same in all directions
+      }
+    }
+  }
+
+  void plan_supports(JudgedDirection& one) const {
+    slicer::LayerList list;
+    Diagnostics unshown;
+    const csg::Scene scene = turned(one.up);
+    slicer::slice(scene, slicer::plan_layers(scene, settings_), settings_, list,
+                  unshown);
+    const slicer::SupportPlan plan = slicer::plan_supports(
+        list.layers, sizes_, marked_solids(scene, list.layers, request_));
+    one.contacts = plan.supports.size();
+    one.contact_area = plan.contact_area();
+    one.support_volume = plan.volume();
+    one.unheld = plan.unheld.size() + plan.unwanted.size();
+    const double lift =
+        plan.supports.empty() ? 0 : list.layers.front().bottom - plan.bed;
+    one.height += lift;
+    one.layers = static_cast<std::size_t>(
+        std::ceil(one.height / settings_.layer_thickness));
+    if (machine_.printer) {
+      one.seconds = slicer::estimate_print(machine_, settings_.layer_thickness,
+                                           one.layers, 0, 0)
+                        .seconds;
+    }
+    FrontPicture picture(list.layers);
+    picture.add(plan);
+    one.picture = picture.take();
+  }
+
+  void step_on() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (options_.on_progress) {
+      options_.on_progress(std::min(done_, steps_), steps_);
+    }
+  }
+
+  const csg::Scene& scene_;
+  const Request& request_;
+  const Machine& machine_;
+  slicer::Settings settings_;
+  slicer::SupportSizes sizes_;
+  const OrientOptions& options_;
+  const std::size_t steps_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+};
+
+}  // namespace
+
+std::optional<OrientResult> find_orientations(Compilation& c,
+                                              const OrientOptions& options) {
+  c.report.machine = choose_machine(c.request.output, c.file_access());
+  const auto lowered = make_geometry(c);
+  if (!lowered) return std::nullopt;
+  if (lowered->scene() == nullptr) {
+    throw GeometryError("The design is flat: a solid was expected");
+  }
+  return Search(*lowered->scene(), c.request, c.report.machine, options).find();
+}
+
+}  // namespace lamina::compiler
