@@ -34,8 +34,9 @@ constexpr std::string_view kCommonHelp =
 
 Usage:
   lamina DESIGN... [-o FILE] [OPTION]...  slice .scad, .csg, meshes, CAD files
-  lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
-                                          a piece for every row of a table
+  lamina batch DESIGN --table T -o NAMES  make a piece for every row of a table
+  lamina plate DESIGN... -o PLATES        lay many pieces on plates
+  lamina orient DESIGN                    find how it should lie
   lamina check FILE... [OPTION]...        say whether it would print
   lamina inspect FILE [OPTION]...         list layers, measure and weigh them
   lamina compare A B [OPTION]...          compare two files or designs
@@ -47,10 +48,9 @@ Usage:
   lamina materials                        list its resins and metals
 
 Output:
-  -o FILE             the output, by its extension ('-' for standard output);
-                      ring.slc beside ring.scad if not given, or what the
-                      --printer reads; for several designs a folder (out/) or a
-                      pattern (out/{name}.slc)
+  -o FILE             the output, by its extension, or '-' for standard output;
+                      for several designs a folder (out/) or a pattern
+                      (out/{name}.slc) [ring.slc, or what --printer reads]
                         .slc             layers for wax and resin printers
                         .cli             Common Layer Interface
                         .svg             polygons per layer, or a 2D design
@@ -192,7 +192,6 @@ constexpr std::string_view kHelpEnd =
   lamina ring.scad                        ring.slc, layers of 0.05 mm
   lamina ring.scad -o wax.slc --layer 0.025 -D size=54
   lamina inspect ring.slc                 is it sound? how much wax?
-  lamina view ring.slc -o ring.png --style stack
 
 Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
 130 interrupted.

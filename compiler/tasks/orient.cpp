@@ -298,15 +298,18 @@ class Search {
     const csg::Scene scene = turned(one.up);
     slicer::slice(scene, slicer::plan_layers(scene, settings_), settings_, list,
                   unshown);
-    const slicer::SupportPlan plan = slicer::plan_supports(
-        list.layers, sizes_, marked_solids(scene, list.layers, request_));
-    one.contacts = plan.supports.size();
-    one.contact_area = plan.contact_area();
-    one.support_volume = plan.volume();
-    one.unheld = plan.unheld.size() + plan.unwanted.size();
-    const double lift =
-        plan.supports.empty() ? 0 : list.layers.front().bottom - plan.bed;
-    one.height += lift;
+    FrontPicture picture(list.layers);
+    // Where nothing hangs it stands on the bed, without supports.
+    if (one.islands > 0 || one.overhang > 0) {
+      const slicer::SupportPlan plan = slicer::plan_supports(
+          list.layers, sizes_, marked_solids(scene, list.layers, request_));
+      one.contacts = plan.supports.size();
+      one.contact_area = plan.contact_area();
+      one.support_volume = plan.volume();
+      one.unheld = plan.unheld.size() + plan.unwanted.size();
+      if (one.contacts > 0) one.height += list.layers.front().bottom - plan.bed;
+      picture.add(plan);
+    }
     one.layers = static_cast<std::size_t>(
         std::ceil(one.height / settings_.layer_thickness));
     if (machine_.printer) {
@@ -314,8 +317,6 @@ class Search {
                                            one.layers, 0, 0)
                         .seconds;
     }
-    FrontPicture picture(list.layers);
-    picture.add(plan);
     one.picture = picture.take();
   }
 

@@ -1,0 +1,167 @@
+// lamina orient, and slicing as it says.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/lamina.h"
+#include "tests/support/text.h"
+
+namespace lamina::cli {
+namespace {
+
+using nlohmann::json;
+using support::has;
+using support::read_file;
+using support::TemporaryFolder;
+
+// A T that lies flat with a thin foot: standing on its head nothing hangs.
+constexpr const char* kTable =
+    "translate([-10, -10, 10]) cube([20, 20, 2]); translate([-1, -1, 0]) "
+    "cube([2, 2, 11]);";
+
+json listed(const TemporaryFolder& folder, const std::string& design,
+            const std::vector<std::string>& options = {}) {
+  folder.write("a.scad", design);
+  std::vector<std::string> words = {"orient",       "a.scad",  "-o",
+                                    "o.json",       "--layer", "0.2",
+                                    "--directions", "60"};
+  words.insert(words.end(), options.begin(), options.end());
+  const auto result = run(folder, words);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return json::parse(read_file(folder.file("o.json")));
+}
+
+TEST(Orient, ATableStandsOnItsHead) {
+  const TemporaryFolder folder;
+  const json found = listed(folder, kTable);
+  EXPECT_EQ(found["judged"], 60 - (60 - 39) % 8) << found["judged"];
+  const json& best = found["listed"][0];
+  EXPECT_EQ(best["orient"], json({0.0, 0.0, -1.0}));
+  EXPECT_EQ(best["contacts"], 0);
+  EXPECT_EQ(best["contact_area_mm2"], 0.0);
+  EXPECT_NEAR(best["height_mm"].get<double>(), 12, 1e-9);
+  EXPECT_EQ(best["unheld"], 0);
+  EXPECT_GT(found["drawn"]["contacts"], 5);
+  EXPECT_NEAR(found["drawn"]["overhang_mm2"].get<double>(), 396, 60);
+}
+
+// No row of the list beats another one in everything.
+TEST(Orient, ItsListIsAParetoFront) {
+  const TemporaryFolder folder;
+  const json found = listed(
+      folder,
+      "rotate([20, 35, 0]) difference() { cube([20, 14, 9], center = true); "
+      "translate([0, 0, 3]) cube([12, 8, 9], center = true); }");
+  const std::vector<std::string> figures = {"unheld", "contact_area_mm2",
+                                            "support_volume_mm3", "cups_mm3",
+                                            "height_mm"};
+  const json& rows = found["listed"];
+  ASSERT_GE(rows.size(), 2U);
+  for (const json& a : rows) {
+    for (const json& b : rows) {
+      bool is_no_worse = true;
+      bool is_better = false;
+      for (const std::string& figure : figures) {
+        is_no_worse = is_no_worse && a[figure] <= b[figure];
+        is_better = is_better || a[figure] < b[figure];
+      }
+      EXPECT_FALSE(is_no_worse && is_better) << a << b;
+    }
+    const auto& up = a["orient"];
+    EXPECT_NEAR(std::hypot(up[0].get<double>(), up[1].get<double>(),
+                           up[2].get<double>()),
+                1, 1e-9);
+  }
+}
+
+TEST(Orient, TheSameListComesFromAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  const json found = listed(folder, kTable);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(listed(folder, kTable), found);
+}
+
+TEST(Orient, APageHasAPictureOfEach) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kTable);
+  const auto result = run(folder, {"orient", "a.scad", "-o", "o.html",
+                                   "--layer", "0.2", "--directions", "20"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(has(result.output, "0,0,-1")) << result.output;
+  EXPECT_TRUE(has(result.output, "0,0,1 (as drawn)"));
+  const std::string page = read_file(folder.file("o.html"));
+  EXPECT_TRUE(has(page, "<svg"));
+  EXPECT_TRUE(has(page, "--orient 0,0,-1"));
+}
+
+double volume_of(const TemporaryFolder& folder,
+                 const std::vector<std::string>& options) {
+  std::vector<std::string> words = {"a.scad", "-o",      "a.slc", "--report",
+                                    "r.json", "--layer", "0.05"};
+  words.insert(words.end(), options.begin(), options.end());
+  const auto result = run(folder, words);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return json::parse(read_file(folder.file("r.json")))["volume_mm3"];
+}
+
+TEST(Orient, AnyDirectionMayPointUp) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "difference() { cube([9, 7, 5]); translate([2, 2, 2]) "
+               "sphere(3, $fn = 40); } intersection() { cylinder(r = 2, h = "
+               "12, $fn = 30); translate([0, 0, 8]) cube(9, center = true); }");
+  const double volume = volume_of(folder, {});
+  for (const char* up :
+       {"0,0,-1", "1,0,0", "0,-2,0", "1,1,1", "-0.3,0.2,0.9", "0.5,0.5,-3"}) {
+    EXPECT_NEAR(volume_of(folder, {"--orient", up}), volume, 2e-3 * volume)
+        << up;
+  }
+  EXPECT_NEAR(volume_of(folder, {"--orient", "1,0,0"}),
+              volume_of(folder, {"--axis", "x"}), 1e-9);
+  EXPECT_NEAR(volume_of(folder, {"--orient", "1,2,3", "--turn", "40"}),
+              volume_of(folder, {"--orient", "1,2,3"}), 1e-6);
+}
+
+// Supports are lines of the design, which are turned with it.
+TEST(Orient, SupportsHoldAPartThatLeans) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([12, 8, 4], center = true);");
+  const auto result =
+      run(folder, {"a.scad", "-o", "a.slc", "--supports", "--orient",
+                   "0.4,0.3,0.86", "--fail-on", "islands,overhangs"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(has(result.errors, "supports: ")) << result.errors;
+}
+
+TEST(Orient, RefusesWhatItCannotMean) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(3);");
+  folder.write("flat.scad", "square(3);");
+  const auto status = [&](const std::vector<std::string>& words,
+                          const std::string& message) {
+    const auto result = run(folder, words);
+    EXPECT_TRUE(has(result.errors, message)) << result.errors;
+    return result.status;
+  };
+  EXPECT_EQ(status({"a.scad", "-o", "a.slc", "--orient", "0,0,0"},
+                   "--orient: expected the direction that points up, X,Y,Z, "
+                   "not '0,0,0'"),
+            2);
+  EXPECT_EQ(status({"a.scad", "-o", "a.slc", "--orient", "up"}, "not 'up'"), 2);
+  EXPECT_EQ(
+      status({"a.scad", "-o", "a.slc", "--orient", "1,0,0", "--axis", "x"},
+             "not with --axis"),
+      2);
+  EXPECT_EQ(status({"orient", "a.scad", "-o", "a.png"},
+                   "orient writes .html or .json; 'a.png' is neither"),
+            2);
+  EXPECT_EQ(status({"orient", "a.scad", "--axis", "x"}, "orient finds"), 2);
+  EXPECT_EQ(status({"orient", "flat.scad"}, "is not a 3D object"), 1);
+}
+
+}  // namespace
+}  // namespace lamina::cli
