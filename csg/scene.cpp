@@ -1,6 +1,45 @@
 #include "csg/scene.h"
 
+#include <cstddef>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
 namespace lamina::csg {
+
+namespace {
+
+Box3 overlap(const Box3& a, const Box3& b) {
+  Box3 both;
+  both.low = glm::max(a.low, b.low);
+  both.high = glm::min(a.high, b.high);
+  return glm::all(glm::lessThanEqual(both.low, both.high)) ? both : Box3{};
+}
+
+}  // namespace
+
+Box3 bounds_of(const Scene& scene) {
+  struct Bounds {
+    Box3 box;
+    bool is_open = true;  // no child was there yet
+  };
+  std::vector<Bounds> bounds(scene.program.size());
+  const auto add = [&](const auto& child, const Box3& box) {
+    const plane::BooleanNode& parent = scene.program[child.parent];
+    Bounds& of = bounds[child.parent];
+    if (parent.op == plane::BooleanOp::kIntersection) {
+      of.box = of.is_open ? box : overlap(of.box, box);
+    } else if (parent.op == plane::BooleanOp::kUnion || child.is_minuend) {
+      of.box.add(box);
+    }
+    of.is_open = false;
+  };
+  for (const Instance& instance : scene.instances) add(instance, instance.box);
+  for (std::size_t n = scene.program.size(); n-- > 1;) {
+    add(scene.program[n], bounds[n].box);
+  }
+  return bounds[0].box;
+}
 
 plane::BooleanProgram program_of(const Scene& scene) {
   plane::BooleanProgram program{scene.program, {}};

@@ -100,6 +100,9 @@ struct Scene {
   Box3 box;
 };
 
+// Scene::box, from the boxes of the instances.
+Box3 bounds_of(const Scene& scene);
+
 // The scene's program and, of its instances, what the program asks. The boxes
 // are those of the instances, as seen from above.
 plane::BooleanProgram program_of(const Scene& scene);

@@ -244,7 +244,7 @@ class HollowScene {
   std::uint32_t shell_ = 0;
   std::uint32_t rod_ = 0;
   std::uint32_t leaves_ = kNoLeaf;  // where the part's leaves begin
-  std::uint32_t wall_ = 0;  // of the part itself
+  std::uint32_t wall_ = 0;          // of the part itself
 };
 
 // What the shell leaves out of the part.
@@ -356,17 +356,18 @@ HollowReport hollow_out(csg::Scene& scene, const HollowSizes& sizes,
                         sizes.wall));
     return report;
   }
-  const Plan plan = plan_drains(cavities, LayerSolids(layers), sizes,
-                                drain_diameter(sizes, part.box), diagnostics);
+  const double diameter = drain_diameter(sizes, part.box);
+  const Plan plan =
+      plan_drains(cavities, LayerSolids(layers), sizes, diameter, diagnostics);
   report.drains = plan.drains;
   report.cavities =
       static_cast<std::size_t>(std::ranges::count(plan.is_kept, true));
   report.filled = cavities.size() - report.cavities;
   if (report.cavities == 0) {
     diagnostics.own_warning(
-        {}, fmt::format("nothing is hollowed: {} too narrow for a drain, or "
-                        "without one",
-                        counted(cavities.size(), "cavity is", "cavities are")));
+        {}, fmt::format("nothing is hollowed: {} no drain of {:g} mm",
+                        counted(cavities.size(), "cavity has", "cavities have"),
+                        diameter));
     return report;
   }
   HollowScene hollow(part, std::move(shell));

@@ -54,15 +54,14 @@ std::optional<csg::Scene> supports_of(const csg::Scene& scene) {
 csg::Scene without_supports(const csg::Scene& scene) {
   csg::Scene rest = scene;
   rest.instances.clear();
-  rest.box = {};
   for (const csg::Instance& instance : scene.instances) {
     if (is_support(scene, instance)) {
       --rest.program[instance.parent].child_count;
     } else {
       rest.instances.push_back(instance);
-      rest.box.add(instance.box);
     }
   }
+  rest.box = csg::bounds_of(rest);
   return rest;
 }
 
@@ -102,19 +101,16 @@ class LeafColors {
   csg::Scene part_of(std::int32_t color) const {
     csg::Scene part = scene_;
     part.instances.clear();
-    part.box = {};
     for (std::size_t i = 0; i < units_.size(); ++i) {
       const csg::Instance& instance = scene_.instances[i];
-      if (!units_[i].is_subtracted) {
-        if (color_of(i) != color) {
-          --part.program[instance.parent].child_count;
-          continue;
-        }
-        part.box.add(instance.box);
+      if (units_[i].is_subtracted || color_of(i) == color) {
+        part.instances.push_back(instance);
+      } else {
+        --part.program[instance.parent].child_count;
       }
-      part.instances.push_back(instance);
     }
     clear_other_intersections(color, part.program);
+    part.box = csg::bounds_of(part);
     return part;
   }
 
