@@ -85,32 +85,6 @@ void evaluate_design(Compilation& c) {
   }
 }
 
-// Whether messages end the run here, without an output.
-bool ends_strictly(Compilation& c) {
-  if (!c.is_strict()) return false;
-  if (c.has_failed || c.diagnostics.has_errors()) return true;
-  const std::size_t warnings = c.count(Severity::kWarning);
-  if (warnings == 0) return false;
-  c.has_failed = true;
-  const auto first = std::ranges::find(c.diagnostics.all(), Severity::kWarning,
-                                       &Diagnostic::severity);
-  c.diagnostics.error(
-      {}, fmt::format("not written: {} (first: {}); --no-strict writes it",
-                      counted(warnings, "warning"), first->message));
-  return true;
-}
-
-// Whether what would go wrong in the print ends the run, without an output.
-bool ends_on_findings(Compilation& c) {
-  const auto& print = c.report.slice.print;
-  if (!print) return false;
-  const std::string counts = print->counts(c.request.job.print.fail_on);
-  if (counts.empty()) return false;
-  c.has_failed = true;
-  c.diagnostics.error({}, fmt::format("not written: {} (--fail-on)", counts));
-  return true;
-}
-
 // Whether the run ends with an error though its text is complete: OpenSCAD 2026
 // ends so at the first of hard warnings, 2021.01 ends well.
 bool ends_hard(const Compilation& c) {
@@ -225,6 +199,37 @@ bool compile(Compilation& c) {
   c.report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - c.begin)
           .count();
+  return true;
+}
+
+bool has_refused_warnings(Diagnostics& diagnostics) {
+  const std::vector<Diagnostic>& all = diagnostics.all();
+  const auto warnings = static_cast<std::size_t>(
+      std::ranges::count(all, Severity::kWarning, &Diagnostic::severity));
+  if (warnings == 0) return false;
+  const std::string first =
+      std::ranges::find(all, Severity::kWarning, &Diagnostic::severity)
+          ->message;
+  diagnostics.error(
+      {}, fmt::format("not written: {} (first: {}); --no-strict writes it",
+                      counted(warnings, "warning"), first));
+  return true;
+}
+
+bool ends_strictly(Compilation& c) {
+  if (!c.is_strict()) return false;
+  if (c.has_failed || c.diagnostics.has_errors()) return true;
+  c.has_failed = has_refused_warnings(c.diagnostics);
+  return c.has_failed;
+}
+
+bool ends_on_findings(Compilation& c) {
+  const auto& print = c.report.slice.print;
+  if (!print) return false;
+  const std::string counts = print->counts(c.request.job.print.fail_on);
+  if (counts.empty()) return false;
+  c.has_failed = true;
+  c.diagnostics.error({}, fmt::format("not written: {} (--fail-on)", counts));
   return true;
 }
 

@@ -28,6 +28,17 @@ csg::Lowered lower_tree(Compilation& compilation);
 // Both of these. No value where the tree could not be made.
 std::optional<csg::Lowered> make_geometry(Compilation& compilation);
 
+// Whether warnings, or errors, end a strict run here, without an output; says
+// so.
+bool ends_strictly(Compilation& compilation);
+
+// Whether findings of --fail-on end the run, without an output; says so.
+bool ends_on_findings(Compilation& compilation);
+
+// Says that strict runs do not write what has warnings; returns whether there
+// are some.
+bool has_refused_warnings(Diagnostics& diagnostics);
+
 // Plans and slices, with the request's settings or others; reports progress.
 slicer::SliceReport make_layers(Compilation& compilation,
                                 const csg::Lowered& lowered,

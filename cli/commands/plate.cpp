@@ -1,9 +1,11 @@
 // lamina plate: many pieces on the plates of a printer.
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -21,6 +23,7 @@
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
+#include "cli/report/finding_table.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
@@ -54,12 +57,19 @@ Pieces of like height share a plate: the highest decides how long it takes.
   --turns N       turns about z that are tried, 1 to 36 [8]
   --plate W,D     the plate's size in mm, where no printer is named
   --map FILE      which piece lies where: a page (.html), or JSON (.json)
+  --strict        write nothing if a piece has a warning
+  --fail-on KINDS write nothing if a piece has islands, loose-parts, overhangs,
+                  suction-cups, resin-traps or all of them
   -q, --quiet     print errors only
   -h, --help      print this help
 
 All other options of Output, Design and Slicing are those of 'lamina --help' and
 go for all pieces: --printer, --supports, --hollow, --layer.
 )";
+
+// A piece as large as the printer builds fits, whatever rounding its numbers
+// saw [mm].
+constexpr double kSlack = 1e-6;
 
 // Pieces are equal where these are.
 using PieceKey = std::tuple<std::string, std::string, std::string>;
@@ -74,6 +84,12 @@ struct PlatePiece {
   compiler::Request request;
   std::string name;
   std::size_t quantity = 0;
+};
+
+// What is written of a plate.
+struct PlannedPlate {
+  compiler::Request request;
+  slicer::MappedPlate mapped;
 };
 
 class PlateCommand : public Command {
@@ -92,8 +108,7 @@ class PlateCommand : public Command {
       plate_.size = size_of(text);
     });
     options.name("--map", "file", map_);
-    add_machine_options(options, request_);
-    add_print_options(options, request_);
+    add_output_options(options, request_, output_options_);
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
   }
@@ -114,10 +129,14 @@ class PlateCommand : public Command {
     refuse_if(
         !map_.empty() && !map_.ends_with(".html") && !map_.ends_with(".json"),
         "--map writes .html or .json; '{}' is neither", map_);
+    refuse_if(!output_options_.report.empty(),
+              "the report of plates is --map FILE.json");
+    refuse_if(request_.job.written != slicer::LayerNumbers(),
+              "plates have all layers: --layers cannot be");
+    refuse_words_of_pattern();
     if (turns_) plate_.turns = *turns_;
-    const OutputOptions output;
-    request_.output.path = with_extension(request_, output);
-    choose_format(request_, output, request_.output.path);
+    request_.output.path = with_extension(request_, output_options_);
+    choose_format(request_, output_options_, request_.output.path);
     refuse_if(!slicer::is_of_layers(request_.output.format),
               "plates are layers; '{}' is none", request_.output.path);
     request_.geometry.is_placed_on_bed = true;
@@ -133,6 +152,7 @@ class PlateCommand : public Command {
       const std::vector<PlatePiece> pieces =
           find_pieces(context, sources, diagnostics);
       if (diagnostics.has_errors()) return kFault;
+      take_machine(context);
       if (!slice_all(pieces, context)) return kFault;
       return lay_out(pieces, context, terminal, diagnostics);
     });
@@ -149,6 +169,19 @@ class PlateCommand : public Command {
             "a width and a depth were expected, such as 120,68, not '{}'",
             text);
     return {*width, *depth};
+  }
+
+  void refuse_words_of_pattern() const {
+    std::vector<std::string> words;
+    try {
+      words = words_of_pattern(request_.output.path);
+    } catch (const FileError& error) {
+      throw RequestError(error.what());
+    }
+    for (const std::string& word : words) {
+      refuse_if(word != "plate", "'{{{}}}' in -o: plates have {{plate}} alone",
+                word);
+    }
   }
 
   std::vector<Order> orders(const Context& context, SourceStore& sources,
@@ -182,82 +215,157 @@ class PlateCommand : public Command {
     }
     std::erase_if(pieces,
                   [](const PlatePiece& piece) { return piece.quantity == 0; });
+    if (pieces.empty() && !diagnostics.has_errors()) {
+      diagnostics.error(
+          {}, fmt::format("'{}' orders nothing: all quantities are 0", table_));
+    }
     return pieces;
   }
 
-  // Returns whether all went well.
+  // The plate's size where it is not given, and the greatest height.
+  void take_machine(const Context& context) {
+    if (request_.output.printer.empty()) return;
+    const slicer::Machine machine =
+        compiler::choose_machine(request_.output, context.file_access());
+    const Vec3 built = machine.printer->build_volume();
+    height_ = built.z + kSlack;
+    if (plate_.size.x == 0) plate_.size = Vec2(built);
+    refuse_if(
+        plate_.size.x > built.x + kSlack || plate_.size.y > built.y + kSlack,
+        "--plate {:g},{:g} is larger than what {} builds, {:g} x {:g} mm",
+        plate_.size.x, plate_.size.y, machine.printer->title, built.x, built.y);
+  }
+
+  // Returns whether all went well. Messages begin with the piece's name.
   bool slice_all(const std::vector<PlatePiece>& pieces,
                  const Context& context) {
+    context.watch.time_parts();
     bool is_well = true;
     for (const PlatePiece& piece : pieces) {
       Inbox inbox;
-      inbox.prefix = piece.name + ": ";
-      {
-        Session session(piece.request, is_quiet_, context, &inbox);
-        is_well &= session.run([&] {
-          auto plated = compiler::slice_for_plates(session.compilation);
-          if (!plated) return kFault;
-          layers_.push_back(std::move(plated->layers));
-          slices_.push_back(std::move(plated->slice));
-          return kDone;
-        }) == kDone;
-      }
+      inbox.prefix = on_one_line(piece.name) + ": ";
+      inbox.has_progress = true;
+      const ProcessWatch::Part timed(context.watch, inbox.prefix);
+      is_well &= slice_piece(piece, context, inbox);
       print_messages(inbox.text);
     }
     return is_well;
   }
 
+  bool slice_piece(const PlatePiece& piece, const Context& context,
+                   Inbox& inbox) {
+    Session session(piece.request, is_quiet_, context, &inbox);
+    const int status = session.run([&] {
+      auto plated = compiler::slice_for_plates(session.compilation);
+      if (!plated) return kFault;
+      layers_.push_back(std::move(plated->layers));
+      slices_.push_back(std::move(plated->slice));
+      return kDone;
+    });
+    if (status != kDone) return false;
+    if (piece.request.job.min_feature > 0) {
+      session.terminal.say(feature_lines(session.compilation));
+    }
+    const auto& print = slices_.back().print;
+    if (print && !print->counts(slicer::kAllFindings).empty()) {
+      session.terminal.say(fmt::format("print: {}", finding_counts(*print)));
+    }
+    return true;
+  }
+
   int lay_out(const std::vector<PlatePiece>& pieces, const Context& context,
               Terminal& terminal, Diagnostics& diagnostics) {
-    if (plate_.size.x == 0) {
-      const slicer::Machine machine =
-          compiler::choose_machine(request_.output, context.file_access());
-      plate_.size = Vec2(machine.printer->build_volume());
-    }
     std::vector<slicer::MappedPiece> mapped;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       mapped.push_back({pieces[i].name, slicer::footprint_of(layers_[i])});
     }
+    terminal.progress().say("laying out");
+    std::vector<PlannedPlate> plates =
+        plan_plates(pieces, mapped, context, diagnostics);
+    terminal.progress().erase();
+    if (diagnostics.has_errors()) return kFault;
+    refuse_equal_names(plates);
+    // Nothing is written until all is known to fit.
+    for (const PlannedPlate& plate : plates) {
+      context.expect_outputs({plate.request.output.path});
+    }
+    context.expect_outputs({map_});
+    make_folder_of(map_, context.file_access());
+    std::vector<slicer::MappedPlate> titled;
+    json listed = json::array();
+    for (PlannedPlate& plate : plates) {
+      const compiler::Report report = write(plate, context, diagnostics);
+      plate.mapped.title = title_of(plate, report);
+      terminal.say(plate.mapped.title);
+      listed.push_back(json_of(plate, report, mapped));
+      titled.push_back(std::move(plate.mapped));
+    }
+    write_map(mapped, titled, listed, context);
+    return kDone;
+  }
+
+  // What does not fit, and what strict runs refuse, is an error in
+  // `diagnostics`.
+  std::vector<PlannedPlate> plan_plates(
+      const std::vector<PlatePiece>& pieces,
+      const std::vector<slicer::MappedPiece>& mapped, const Context& context,
+      Diagnostics& diagnostics) const {
     std::map<std::string, std::vector<std::size_t>> by_material;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       by_material[pieces[i].request.output.material].push_back(i);
     }
-    std::vector<slicer::MappedPlate> plates;
-    json listed = json::array();
-    bool is_well = true;
+    std::vector<PlannedPlate> plates;
     for (const auto& [material, own] : by_material) {
+      const compiler::Request& request = pieces[own.front()].request;
+      compiler::warn_of_plates(request, context.file_access(), diagnostics);
       const slicer::PlatePlan plan = plan_of(pieces, own, mapped);
-      for (const std::size_t piece : plan.too_large) {
-        diagnostics.error(
-            {},
-            fmt::format("{} does not fit a plate of {:g} x {:g} mm",
-                        pieces[own[piece]].name, plate_.size.x, plate_.size.y));
-        is_well = false;
+      refuse_too_large(pieces, own, plan, diagnostics);
+      const std::size_t first = plates.size();
+      for (std::size_t i = 0; i < plan.plates; ++i) {
+        plates.push_back({request, {}});
+        plates.back().request.output.path = path_of(plates.size());
       }
-      if (!is_well) continue;
-      for (std::size_t number = 0; number < plan.plates; ++number) {
-        slicer::MappedPlate& plate = plates.emplace_back();
-        for (slicer::Placement placement : plan.placements) {
-          if (placement.plate != number) continue;
-          placement.piece = own[placement.piece];
-          plate.placements.push_back(placement);
-        }
-        compiler::Request request = pieces[own.front()].request;
-        request.output.path = path_of(plates.size());
-        const compiler::Report report =
-            write(request, plate, context, diagnostics);
-        plate.title = title_of(request, report, plate);
-        terminal.say(plate.title);
-        listed.push_back(json_of(request, report, plate, mapped));
+      for (slicer::Placement placement : plan.placements) {
+        placement.piece = own[placement.piece];
+        plates[first + placement.plate].mapped.placements.push_back(placement);
       }
     }
-    if (!is_well) return kFault;
-    refuse_if(plates.size() > 1 && path_of(1) == path_of(2),
-              "there are {} plates: -o needs {{plate}}, as in "
-              "'plate-{{plate}}.sl1'",
-              plates.size());
-    write_map(mapped, plates, listed, context);
-    return kDone;
+    const bool is_strict =
+        request_.output.is_strict.value_or(context.file_access().is_confined());
+    if (is_strict) compiler::has_refused_warnings(diagnostics);
+    return plates;
+  }
+
+  void refuse_too_large(const std::vector<PlatePiece>& pieces,
+                        const std::vector<std::size_t>& own,
+                        const slicer::PlatePlan& plan,
+                        Diagnostics& diagnostics) const {
+    for (const std::size_t i : plan.too_large) {
+      diagnostics.error(
+          {}, fmt::format("{} does not fit a plate of {:g} x {:g} mm",
+                          on_one_line(pieces[own[i]].name), plate_.size.x,
+                          plate_.size.y));
+    }
+    for (const std::size_t i : own) {
+      const double height = layers_[i].back().top;
+      if (height <= height_) continue;
+      diagnostics.error(
+          {},
+          fmt::format("{} is {:g} mm high, the printer builds {:g} mm",
+                      on_one_line(pieces[i].name), height, height_ - kSlack));
+    }
+  }
+
+  void refuse_equal_names(const std::vector<PlannedPlate>& plates) const {
+    std::set<std::string> names;
+    for (const PlannedPlate& plate : plates) {
+      const std::string& path = plate.request.output.path;
+      refuse_if(!names.insert(path).second,
+                "there are {} plates: -o needs {{plate}}, as in "
+                "'plate-{{plate}}.sl1'",
+                plates.size());
+      refuse_if(path == map_, "-o and --map would both write '{}'", path);
+    }
   }
 
   slicer::PlatePlan plan_of(
@@ -272,46 +380,43 @@ class PlateCommand : public Command {
     return slicer::pack_plates(packed, plate_);
   }
 
-  compiler::Report write(const compiler::Request& request,
-                         const slicer::MappedPlate& plate,
-                         const Context& context, Diagnostics& diagnostics) {
-    context.expect_outputs({request.output.path});
-    return compiler::write_plate(request, layers_, slices_, plate.placements,
+  compiler::Report write(const PlannedPlate& plate, const Context& context,
+                         Diagnostics& diagnostics) const {
+    make_folder_of(plate.request.output.path, context.file_access());
+    return compiler::write_plate(plate.request, layers_, slices_,
+                                 plate.mapped.placements,
                                  context.temporary_files, diagnostics);
   }
 
   // number  from 1
   std::string path_of(std::size_t number) const {
-    return fill_pattern(request_.output.path, [&](const std::string& word) {
-      return word == "plate" ? fmt::format("{}", number)
-                             : fmt::format("{{{}}}", word);
+    return fill_pattern(request_.output.path, [&](const std::string& /*word*/) {
+      return fmt::format("{}", number);
     });
   }
 
   // "plate-1.sl1: 12 pieces, 240 layers, 3.1 ml of resin, 2 h 10 min"
-  static std::string title_of(const compiler::Request& request,
-                              const compiler::Report& report,
-                              const slicer::MappedPlate& plate) {
+  static std::string title_of(const PlannedPlate& plate,
+                              const compiler::Report& report) {
     const std::string estimate =
         slicer::estimate_text(report.machine, report.estimate);
-    return fmt::format("{}: {}, {}{}{}", display_path(request.output.path),
-                       counted(plate.placements.size(), "piece"),
+    return fmt::format("{}: {}, {}{}{}",
+                       display_path(plate.request.output.path),
+                       counted(plate.mapped.placements.size(), "piece"),
                        counted(report.slice.layers, "layer"),
                        estimate.empty() ? "" : ", ", estimate);
   }
 
-  static json json_of(const compiler::Request& request,
-                      const compiler::Report& report,
-                      const slicer::MappedPlate& plate,
+  static json json_of(const PlannedPlate& plate, const compiler::Report& report,
                       const std::vector<slicer::MappedPiece>& mapped) {
     json pieces = json::array();
-    for (const slicer::Placement& placement : plate.placements) {
+    for (const slicer::Placement& placement : plate.mapped.placements) {
       pieces.push_back({{"name", mapped[placement.piece].name},
                         {"turn_deg", placement.turn_deg},
                         {"x_mm", placement.shift.x},
                         {"y_mm", placement.shift.y}});
     }
-    return {{"output", request.output.path},
+    return {{"output", plate.request.output.path},
             {"layers", report.slice.layers},
             {"volume_mm3", report.slice.volume},
             {"seconds", report.estimate.seconds},
@@ -323,7 +428,6 @@ class PlateCommand : public Command {
                  const std::vector<slicer::MappedPlate>& plates,
                  const json& listed, const Context& context) const {
     if (map_.empty()) return;
-    context.expect_outputs({map_});
     compiler::write_file(map_,
                          map_.ends_with(".json")
                              ? json_text(listed)
@@ -337,7 +441,9 @@ class PlateCommand : public Command {
   std::optional<unsigned> turns_;
   slicer::Plate plate_ = {.gap = 2, .margin = 1};
   std::string map_;
+  double height_ = std::numeric_limits<double>::infinity();  // [mm]
   compiler::Request request_;
+  OutputOptions output_options_;
   bool is_quiet_ = false;
   // Of each piece.
   std::vector<std::vector<slicer::Layer>> layers_;

@@ -258,9 +258,8 @@ std::string hollow_line(const compiler::Report& report) {
     const double grams = material->weight(hollow.saved_volume);
     line += fmt::format(", {:.3g} g", grams);
     if (material->price) {
-      line += fmt::format(", {:.2f} {}",
-                          material->price->of(grams, hollow.saved_volume),
-                          material->price->currency);
+      line += slicer::price_text(
+          *material, material->price->of(grams, hollow.saved_volume));
     }
   }
   if (!hollow.drains.empty()) {

@@ -6,6 +6,7 @@
 #include "compiler/layer_output.h"
 #include "compiler/machine.h"
 #include "compiler/passes.h"
+#include "compiler/warnings.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/plate/plate_layers.h"
 
@@ -40,19 +41,21 @@ class MeasuringSink : public slicer::LayerSink {
 std::optional<PlatedPiece> slice_for_plates(Compilation& c) {
   c.report.machine = choose_machine(c.request.output, c.file_access());
   const auto lowered = make_geometry(c);
-  if (!lowered) return std::nullopt;
+  if (!lowered || ends_strictly(c)) return std::nullopt;
   if (lowered->scene() == nullptr) {
     throw GeometryError("The design is flat: plates take solids");
   }
-  const slicer::Settings settings = settings_of(c.request, c.report.machine);
-  const auto grid = ldni::LayerGrid::uniform(0, lowered->scene()->box.high.z,
-                                             settings.layer_thickness);
   slicer::LayerList list;
-  PlatedPiece piece;
-  piece.slice =
-      slice(*lowered, grid, settings, list, c.on_progress, c.diagnostics);
-  piece.layers = std::move(list.layers);
-  return piece;
+  c.report.slice =
+      make_layers(c, *lowered, settings_of(c.request, c.report.machine), list);
+  c.report.lines = find_lines(*lowered, c.report.slice);
+  if (ends_strictly(c) || ends_on_findings(c)) return std::nullopt;
+  return PlatedPiece{std::move(list.layers), c.report.slice};
+}
+
+void warn_of_plates(const Request& request, const FileAccess& access,
+                    Diagnostics& diagnostics) {
+  warn_of_machine(choose_machine(request.output, access), request, diagnostics);
 }
 
 Report write_plate(const Request& request,
@@ -68,8 +71,9 @@ Report write_plate(const Request& request,
     if (!report.slice.supports) report.slice.supports.emplace();
     report.slice.supports->volume += supports->volume;
   }
+  Diagnostics unshown;  // warn_of_plates() has said it
   LayerOutput output =
-      LayerOutput::open(request, report.machine, files, diagnostics);
+      LayerOutput::open(request, report.machine, files, unshown);
   MeasuringSink sink(output.sink(), report.slice);
   slicer::PlateLayers(pieces, std::move(placements),
                       request.job.layer_thickness)

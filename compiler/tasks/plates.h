@@ -19,9 +19,15 @@ struct PlatedPiece {
 };
 
 // Slices the compilation's design in layers that begin at height 0. No value
-// where the design failed, which is reported. Throws GeometryError where it is
+// where the design failed, where a strict run has warnings, or where --fail-on
+// forbids what was found, which is reported. Throws GeometryError where it is
 // nothing or flat.
 std::optional<PlatedPiece> slice_for_plates(Compilation& compilation);
+
+// Warns of what does not go together: the printer, the material, the format and
+// the thickness of layers.
+void warn_of_plates(const Request& request, const FileAccess& access,
+                    Diagnostics& diagnostics);
 
 // Writes a plate to the request's output, and returns the report of that.
 //

@@ -329,10 +329,7 @@ HollowSizes HollowSizes::scaled(double factor) const {
   HollowSizes sizes = *this;
   sizes.wall *= factor;
   sizes.drain_diameter *= factor;
-  for (DrainPlace& drain : sizes.drains) {
-    drain.place *= factor;
-    drain.diameter *= factor;
-  }
+  for (DrainPlace& drain : sizes.drains) drain.diameter *= factor;
   return sizes;
 }
 

@@ -40,7 +40,8 @@ struct HollowSizes {
   // What is drilled stands beside the part, for gluing it in again.
   bool has_plugs = false;
 
-  // For a part that is smaller by this factor.
+  // With lengths multiplied by a factor. Places of drains stay: they are those
+  // of the design.
   HollowSizes scaled(double factor) const;
 };
 

@@ -25,19 +25,18 @@ std::string amount_text(double amount, std::string_view unit,
 
 std::string grams_text(double grams) { return amount_text(grams, "g", "kg"); }
 
-// ", 0.15 EUR"; empty where the price is not known.
+bool is_for(const KnownExposure& known, const std::string& printer) {
+  return known.printer.empty() || known.printer == printer;
+}
+
+}  // namespace
+
 std::string price_text(const Material& material, double price) {
   if (price == 0) return {};
   return fmt::format(", {:.2f}{}{}", price,
                      material.price->currency.empty() ? "" : " ",
                      material.price->currency);
 }
-
-bool is_for(const KnownExposure& known, const std::string& printer) {
-  return known.printer.empty() || known.printer == printer;
-}
-
-}  // namespace
 
 double print_seconds(const Printer& printer, const Exposure& exposure,
                      std::size_t layers) {

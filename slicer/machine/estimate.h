@@ -56,6 +56,9 @@ PrintEstimate estimate_print(const Machine& machine, double layer_thickness,
 // The sum of what several prints take.
 PrintEstimate operator+(PrintEstimate sum, const PrintEstimate& other);
 
+// ", 0.15 EUR"; empty where the price is not known.
+std::string price_text(const Material& material, double price);
+
 // "0.256 ml of BlueCast X10, 0.28 g, cast in 3.9 g of yellow gold 750, 1 h
 // 12 min on Elegoo Mars 3 if a layer is exposed for 6 s": what is known of it;
 // empty where nothing is.

@@ -24,6 +24,7 @@ struct LayerNumbers {
   bool contains(std::uint32_t layer) const {
     return first <= layer && layer <= last;
   }
+  bool operator==(const LayerNumbers&) const = default;
 };
 
 struct Settings {
