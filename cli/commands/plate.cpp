@@ -71,6 +71,9 @@ go for all pieces: --printer, --supports, --hollow, --layer.
 // saw [mm].
 constexpr double kSlack = 1e-6;
 
+// Of plates and gaps: no printer's plate is wider [mm].
+constexpr double kGreatestLength = 10000;
+
 // Pieces are equal where these are.
 using PieceKey = std::tuple<std::string, std::string, std::string>;
 
@@ -101,8 +104,12 @@ class PlateCommand : public Command {
     options.name("--table", "file", table_);
     options.whole("--copies", copies_, 1, 100000);
     options.name("-o", "pattern", request_.output.path).required();
-    options.number("--gap", "length", plate_.gap);
-    options.number("--margin", "length", plate_.margin);
+    options.text("--gap", "length", [this](const std::string& text) {
+      plate_.gap = length_of("--gap", text);
+    });
+    options.text("--margin", "length", [this](const std::string& text) {
+      plate_.margin = length_of("--margin", text);
+    });
     options.whole("--turns", turns_, 1, 36);
     options.text("--plate", "size", [this](const std::string& text) {
       plate_.size = size_of(text);
@@ -159,13 +166,23 @@ class PlateCommand : public Command {
   }
 
  private:
+  static double length_of(const std::string& option, const std::string& text) {
+    const auto length = parse_number(text);
+    require(length && *length >= 0 && *length <= kGreatestLength, option,
+            "a length from 0 to {:g} mm was expected, not '{}'",
+            kGreatestLength, text);
+    return *length;
+  }
+
   static Vec2 size_of(const std::string& text) {
     const std::size_t comma = text.find(',');
     const auto width = parse_number(text.substr(0, comma));
     const auto depth = comma == std::string::npos
                            ? std::nullopt
                            : parse_number(text.substr(comma + 1));
-    require(width && depth && *width > 0 && *depth > 0, "--plate",
+    require(width && depth && *width > 0 && *depth > 0 &&
+                std::max(*width, *depth) <= kGreatestLength,
+            "--plate",
             "a width and a depth were expected, such as 120,68, not '{}'",
             text);
     return {*width, *depth};
