@@ -36,11 +36,30 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-// Letters are about half as wide as high.
-double letter_height(std::string_view name, Vec2 room) {
+constexpr double kLeastLetter = 0.8;  // [mm]
+constexpr double kGreatestLetter = 4;
+
+// A name in the middle of a piece, along its longer side. Letters are about
+// half as wide as high.
+std::string label(const std::string& name, const Box2& box, double depth) {
+  const Vec2 size = box.size();
+  const Vec2 middle = box.center();
   const auto letters =
       static_cast<double>(std::max<std::size_t>(name.size(), 1));
-  return std::clamp(1.6 * room.x / letters, 0.8, std::max(0.8, room.y / 3));
+  const bool is_upright =
+      size.y > 1.5 * size.x && 1.6 * size.x < kGreatestLetter * letters;
+  const double height = std::clamp(
+      1.6 * (is_upright ? size.y : size.x) / letters, kLeastLetter,
+      std::clamp(std::min(size.x, size.y) / 2, kLeastLetter, kGreatestLetter));
+  const Vec2 place(middle.x, depth - middle.y);
+  return fmt::format(
+      "<text x=\"{0:.2f}\" y=\"{1:.2f}\" font-size=\"{2:.2f}\"{3}>{4}</text>"
+      "\n",
+      place.x, place.y, height,
+      is_upright ? fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"",
+                               place.x, place.y)
+                 : "",
+      escaped(name));
 }
 
 // The colours of neighbouring pieces differ, those of copies do not.
@@ -54,7 +73,12 @@ std::string plate_svg(std::span<const MappedPiece> pieces,
                       std::span<const Placement> placements, Vec2 size) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}mm\" "
-      "height=\"{1:g}mm\" viewBox=\"0 0 {0:g} {1:g}\">\n"
+      "height=\"{1:g}mm\" viewBox=\"0 0 {0:g} {1:g}\" "
+      "text-anchor=\"middle\" dominant-baseline=\"central\" "
+      "font-family=\"sans-serif\">\n"
+      "<style>text{{paint-order:stroke;stroke:#fff;stroke-width:0.6px;stroke-"
+      "linejoin:round}}"
+      "</style>\n"
       "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#f7f6f2\" "
       "stroke=\"#8a8577\" stroke-width=\"0.4\"/>\n",
       size.x, size.y);
@@ -78,14 +102,8 @@ std::string plate_svg(std::span<const MappedPiece> pieces,
       }
       svg += 'Z';
     }
-    const Vec2 middle = (box.low + box.high) / 2.0;
-    fmt::format_to(out,
-                   "\"><title>{0}</title></path>\n<text x=\"{1:.2f}\" "
-                   "y=\"{2:.2f}\" font-size=\"{3:.2f}\" "
-                   "text-anchor=\"middle\" dominant-baseline=\"middle\" "
-                   "font-family=\"sans-serif\">{0}</text>\n",
-                   escaped(piece.name), middle.x, size.y - middle.y,
-                   letter_height(piece.name, box.size()));
+    fmt::format_to(out, "\"><title>{}</title></path>\n{}", escaped(piece.name),
+                   label(piece.name, box, size.y));
   }
   return svg + "</svg>\n";
 }
@@ -97,7 +115,7 @@ std::string plate_page(std::span<const MappedPiece> pieces,
       "<meta name=\"viewport\" content=\"width=device-width\">"
       "<title>Plates</title><style>"
       "body{font:15px sans-serif;margin:2em auto;max-width:60em;padding:0 1em}"
-      "svg{width:100%;height:auto}section{break-inside:avoid}"
+      "h2{font-size:1em}svg{width:100%;height:auto}section{break-inside:avoid}"
       "li{display:inline-block;margin-right:1.5em}ul{padding:0}"
       "</style></head><body>\n";
   for (const MappedPlate& plate : plates) {

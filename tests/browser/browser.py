@@ -89,8 +89,12 @@ class Browser:
         self.requests.clear()
         self.call("Page.navigate", url=url)
         deadline = time.monotonic() + 60
+        # A page without scripts is ready when it is read.
         while not self.evaluate(
-                "document.documentElement?.dataset.ready === 'true'"):
+                "location.href !== 'about:blank' && "
+                "document.readyState === 'complete' && "
+                "(document.scripts.length === 0 || "
+                "document.documentElement.dataset.ready === 'true')"):
             if time.monotonic() > deadline or self.faults:
                 raise RuntimeError(f"{url} does not open: {self.faults}")
             time.sleep(0.02)
