@@ -111,6 +111,9 @@ void refuse_hollow(const Request& request) {
   refuse_if(sizes.wall == 0, "--drain and --drain-plug need --hollow");
   refuse_if(!sizes.drains.empty() && request.geometry.axis == kAutomaticAxis,
             "--drain X,Y,Z,D needs an axis, not --axis auto");
+  refuse_if(!sizes.has_drains &&
+                (sizes.drain_diameter > 0 || !sizes.drains.empty()),
+            "--drain none goes with no other --drain");
   refuse_if(sizes.has_plugs && !sizes.has_drains,
             "--drain-plug needs drains, not --drain none");
   refuse_if(!request.job.heights.empty(),

@@ -86,7 +86,7 @@ struct Instance {
   Box3 box;           // in the world, of the transformed vertices
   SourceRange range;  // of the module call that made the leaf
   const CallSite* caller = nullptr;
-  float support_tip = kNoSupportTip;  // as of the node
+  float support_tip = kNoSupportTip;  // as of the node, times the scale
   std::int32_t color = kNoColor;      // of the outermost color(): 0xRRGGBB
 };
 

@@ -316,6 +316,10 @@ void Lowerer::place(std::uint32_t leaf, Vec3 size, const Place& at) {
   instance.range = at.node.range;
   instance.caller = at.node.caller;
   instance.support_tip = at.node.support_tip;
+  // Supports are enlarged with the print.
+  if (instance.support_tip > 0) {
+    instance.support_tip *= static_cast<float>(options_.scale);
+  }
   instance.color = color_;
   builder_.push(instance);
 }
