@@ -117,6 +117,8 @@ TEST_F(Hollow, BadValuesAreRefused) {
            "'1,1,1,x'"},
           {{"--drain", "1"}, "--drain and --drain-plug need --hollow"},
           {{"--drain-plug"}, "--drain and --drain-plug need --hollow"},
+          {{"--hollow", "1", "--drain", "none", "--drain", "1"},
+           "--drain none goes with no other --drain"},
           {{"--hollow", "1", "--drain-plug", "--drain", "none"},
            "--drain-plug needs drains, not --drain none"},
           {{"--hollow", "1", "--drain", "5,5,10,1", "--axis", "auto"},

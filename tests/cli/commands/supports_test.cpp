@@ -222,5 +222,18 @@ TEST(Supports, AreRefusedToWhatNoPrinterBuilds) {
       << result.errors;
 }
 
+// Tips are enlarged with the print, and so is what they hold.
+TEST(Supports, HoldAnEnlargedPrint) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "cube([4, 4, 12]); translate([0, 0, 10]) cube([20, 12, 2]);");
+  for (const char* scale : {"1", "1.5", "2"}) {
+    const auto result =
+        run(folder, {"a.scad", "-o", "a.slc", "--supports", "--scale", scale,
+                     "--fail-on", "islands,overhangs"});
+    EXPECT_EQ(result.status, 0) << result.errors;
+  }
+}
+
 }  // namespace
 }  // namespace lamina::cli
