@@ -31,7 +31,7 @@ constexpr std::string_view kMoreThanZero = "must be more than 0 mm, not {0}";
 constexpr std::string_view kAtLeastAMillionth = "must be at least 0.000001 mm";
 constexpr std::string_view kFromTo = "must be from {1} to {2}, not {0}";
 
-constexpr std::array<NumberLimits, 17> kNumbers = {{
+constexpr std::array<NumberLimits, 18> kNumbers = {{
     {"--layer", kAboveZero, kUnlimited, kMoreThanZero,
      [](const Request& r) { return r.job.layer_thickness; }},
     {"--adaptive", kAboveZero, kUnlimited, kMoreThanZero,
@@ -62,6 +62,8 @@ constexpr std::array<NumberLimits, 17> kNumbers = {{
      [](const Request& r) { return r.geometry.decimation; }, true},
     {"--hollow", 0.1, kUnlimited, "must be a wall of 0.1 mm or more, not {0}",
      [](const Request& r) { return r.hollow ? r.hollow->wall : 0; }, true},
+    {"--hollow-closing", 0, kUnlimited, "must be 0 mm or more, not {0}",
+     [](const Request& r) { return r.hollow ? r.hollow->closing : 0; }, true},
     {"--max-depth", 1, csg::kMostNestedCalls, kFromTo,
      [](const Request& r) { return static_cast<double>(r.design.max_depth); }},
     {"--max-leaves", 1, 1e9, kFromTo,
@@ -108,12 +110,13 @@ void refuse_turn(const Request& request) {
 void refuse_hollow(const Request& request) {
   if (!request.hollow) return;
   const slicer::HollowSizes& sizes = *request.hollow;
-  refuse_if(sizes.wall == 0, "--drain and --drain-plug need --hollow");
+  refuse_if(sizes.wall == 0,
+            "--hollow-closing, --drain and --drain-plug need --hollow");
   refuse_if(!sizes.drains.empty() && request.geometry.axis == kAutomaticAxis,
             "--drain X,Y,Z,D needs an axis, not --axis auto");
-  refuse_if(!sizes.has_drains &&
-                (sizes.drain_diameter > 0 || !sizes.drains.empty()),
-            "--drain none goes with no other --drain");
+  refuse_if(
+      !sizes.has_drains && (sizes.drain_diameter > 0 || !sizes.drains.empty()),
+      "--drain none goes with no other --drain");
   refuse_if(sizes.has_plugs && !sizes.has_drains,
             "--drain-plug needs drains, not --drain none");
   refuse_if(!request.job.heights.empty(),

@@ -131,6 +131,8 @@ More of slicing:
   --orient X,Y,Z      what of the design points up, as 'lamina orient' finds it
   --turn DEG          turn the design about the axis, anticlockwise seen from
                       above [0]
+  --hollow-closing MM leave places of cavities solid that a ball of this radius
+                      does not reach [0]
   --drain none|MM|X,Y,Z,MM
                       drains of --hollow: none, how wide, or where in the
                       design; several may be given [two each, 1.2 mm wide in

@@ -28,7 +28,7 @@ constexpr std::string_view kSupportsHelp =
 Writes DESIGN with supports as an OpenSCAD design: it includes or imports DESIGN
 and adds a line for each support, which you can edit, move or leave out. A
 comment after each names the line of DESIGN that it supports. Slice it with the
-same --axis, --turn and --layer.
+same --axis, --orient, --turn, --hollow and --layer.
 
 The supported design is sliced and judged: the exit status is 1 if something
 would still begin in mid-air, or reach out farther than a support holds.
@@ -92,7 +92,14 @@ class SupportsCommand : public Command {
   std::string text_of(const slicer::SupportPlan& plan) const {
     const std::string part =
         relative_path(request_.design.path, folder_of(output_));
-    return (compiler::is_imported(request_.design.path)
+    // A design cannot take anything from what it includes.
+    const std::string hollow =
+        request_.hollow ? fmt::format("// Hollow where it is sliced with "
+                                      "--hollow {:g}.\n",
+                                      request_.hollow->wall)
+                        : "";
+    return hollow +
+           (compiler::is_imported(request_.design.path)
                 ? compiler::import_of(part, request_.design.part) + "\n"
                 : fmt::format("include <{}>\n{}", part,
                               request_.design.definitions)) +

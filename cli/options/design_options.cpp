@@ -243,6 +243,10 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.text("--hollow", "length", [&request](const std::string& text) {
     hollow_of(request).wall = require_within("--hollow", text);
   });
+  options.text(
+      "--hollow-closing", "length", [&request](const std::string& text) {
+        hollow_of(request).closing = require_within("--hollow-closing", text);
+      });
   options.texts("--drain", "drain", [&request](const std::string& text) {
     add_drain(text, hollow_of(request));
   });

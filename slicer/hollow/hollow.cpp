@@ -20,6 +20,7 @@
 #include "slicer/contour/layer_measures.h"
 #include "slicer/contour/layer_solids.h"
 #include "slicer/hollow/detail/cavities.h"
+#include "slicer/hollow/detail/closing.h"
 #include "slicer/hollow/detail/drains.h"
 #include "slicer/slice/scene_parts.h"
 #include "slicer/slice/slice.h"
@@ -91,20 +92,24 @@ Affine place_of(const Drain& drain) {
 }
 
 // A stack of prisms, one for each of the cavity's layers.
-csg::Leaf fill_of(const Cavity& cavity, const std::vector<Layer>& layers) {
+//
+// overlap  how far they reach beyond the cavity [mm]
+// extra    and above and below each layer [mm]
+csg::Leaf stack_of(const Cavity& cavity, const std::vector<Layer>& layers,
+                   double overlap, double extra) {
   csg::Leaf leaf;
   leaf.may_overlap_itself = true;
   for (const detail::CavityLayer& one : cavity.layers) {
     const Layer& layer = layers[one.layer];
-    const plane::Region region = plane::offset(
-        one.region, kFillOverlap, plane::Join::kMiter, kFillOverlap);
+    const plane::Region region =
+        overlap == 0
+            ? one.region
+            : plane::offset(one.region, overlap, plane::Join::kMiter, overlap);
     for (const plane::Contour& contour : region.contours) {
       plane::Region alone{{contour}};
       const bool is_hole = plane::area(alone) < 0;
       std::vector<Vec2> outline = contour;
       if (is_hole) std::ranges::reverse(outline);
-      // The cavity may end between two sections.
-      const double extra = layer.top - layer.bottom;
       leaf.lofts.push_back(
           {std::make_shared<const std::vector<Vec2>>(std::move(outline)),
            {{1, layer.bottom - extra}, {1, layer.top + extra}},
@@ -116,20 +121,40 @@ csg::Leaf fill_of(const Cavity& cavity, const std::vector<Layer>& layers) {
   return leaf;
 }
 
-// Builds the program of a hollow part, ((part ∩ (shell ∪ fills)) − drains) ∪
-// plugs.
+// What fills a cavity: into the wall, and beyond its ends, which may be between
+// two sections.
+csg::Leaf fill_of(const Cavity& cavity, const std::vector<Layer>& layers) {
+  return stack_of(cavity, layers, kFillOverlap,
+                  layers.front().top - layers.front().bottom);
+}
+
+// Builds the program of a hollow part, (hollow − drains) ∪ plugs, where hollow
+// is part ∩ (shell ∪ fills) or part − cavities.
 class HollowScene {
  public:
-  HollowScene(const csg::Scene& part, csg::Leaf shell)
-      : part_(part), shell_(add_leaf(std::move(shell))) {
+  HollowScene(const csg::Scene& part, csg::Leaf shell) : part_(part) {
+    shell_ = add_leaf(std::move(shell));
+    begin();
+  }
+  HollowScene(const csg::Scene& part, std::vector<csg::Leaf> cavities)
+      : part_(part) {
+    for (csg::Leaf& cavity : cavities) {
+      carved_.push_back(add_leaf(std::move(cavity)));
+    }
+    begin();
+  }
+
+ private:
+  void begin() {
     rod_ = add_leaf(make_rod());
     add_node(plane::BooleanOp::kUnion, 0);
     const std::uint32_t drilled = add_node(plane::BooleanOp::kDifference, 0);
     scene_.program[drilled].is_minuend = true;
     add_hollow(drilled, Affine(1.0));
-    scene_.box = part.box;
+    scene_.box = part_.box;
   }
 
+ public:
   void fill(csg::Leaf leaf) {
     place(add_leaf(std::move(leaf)), Affine(1.0), wall_);
   }
@@ -203,21 +228,34 @@ class HollowScene {
     scene_.instances.push_back(instance);
   }
 
-  // The part within the shell, moved. Returns the operator, its parent's
-  // minuend.
+  // The hollow part, moved. Returns the operator, its parent's minuend.
   std::uint32_t add_hollow(std::uint32_t parent, const Affine& motion) {
+    const bool has_shell = shell_ != kNoLeaf;
     const std::uint32_t hollow =
-        add_node(plane::BooleanOp::kIntersection, parent);
+        add_node(has_shell ? plane::BooleanOp::kIntersection
+                           : plane::BooleanOp::kDifference,
+                 parent);
     scene_.program[hollow].is_minuend = true;
-    const std::uint32_t wall = add_node(plane::BooleanOp::kUnion, hollow);
-    if (wall_ == 0) wall_ = wall;
+    if (has_shell) {
+      const std::uint32_t wall = add_node(plane::BooleanOp::kUnion, hollow);
+      if (wall_ == 0) wall_ = wall;
+      place(shell_, motion, wall);
+    }
+    for (const std::uint32_t leaf : carved_) place(leaf, motion, hollow);
+    add_part(hollow, motion);
+    return hollow;
+  }
+
+  // As the first operand of an operator.
+  void add_part(std::uint32_t parent, const Affine& motion) {
     const auto first = static_cast<std::uint32_t>(scene_.program.size());
     for (std::uint32_t n = 0; n < part_.program.size(); ++n) {
       plane::BooleanNode node = part_.program[n];
-      node.parent = n == 0 ? hollow : first + node.parent;
+      node.parent = n == 0 ? parent : first + node.parent;
+      node.is_minuend = node.is_minuend || n == 0;
       scene_.program.push_back(node);
     }
-    ++scene_.program[hollow].child_count;
+    ++scene_.program[parent].child_count;
     if (leaves_ == kNoLeaf) {
       leaves_ = static_cast<std::uint32_t>(scene_.leaves.size());
       for (const csg::Leaf& leaf : part_.leaves) add_leaf(leaf);
@@ -233,15 +271,14 @@ class HollowScene {
       }
       scene_.instances.push_back(instance);
     }
-    place(shell_, motion, wall);
-    return hollow;
   }
 
   static constexpr std::uint32_t kNoLeaf = 0xffffffff;
 
   const csg::Scene& part_;
   csg::Scene scene_;
-  std::uint32_t shell_ = 0;
+  std::uint32_t shell_ = kNoLeaf;
+  std::vector<std::uint32_t> carved_;
   std::uint32_t rod_ = 0;
   std::uint32_t leaves_ = kNoLeaf;  // where the part's leaves begin
   std::uint32_t wall_ = 0;          // of the part itself
@@ -310,6 +347,25 @@ Plan plan_drains(const std::vector<Cavity>& cavities, const LayerSolids& solids,
   return plan;
 }
 
+// The part without the cavities that are kept.
+HollowScene make_hollow(const csg::Scene& part, csg::Leaf shell,
+                        const std::vector<Cavity>& cavities, const Plan& plan,
+                        const std::vector<Layer>& layers,
+                        const HollowSizes& sizes) {
+  std::vector<csg::Leaf> stacks;
+  for (std::size_t i = 0; i < cavities.size(); ++i) {
+    if (sizes.closing > 0 && plan.is_kept[i]) {
+      stacks.push_back(stack_of(cavities[i], layers, 0, 0));
+    } else if (sizes.closing == 0 && !plan.is_kept[i]) {
+      stacks.push_back(fill_of(cavities[i], layers));
+    }
+  }
+  if (sizes.closing > 0) return {part, std::move(stacks)};
+  HollowScene hollow(part, std::move(shell));
+  for (csg::Leaf& fill : stacks) hollow.fill(std::move(fill));
+  return hollow;
+}
+
 // The cavities' layers by their numbers among those of the part.
 void number_layers(std::vector<Cavity>& cavities,
                    const std::vector<Layer>& hollow,
@@ -328,6 +384,7 @@ void number_layers(std::vector<Cavity>& cavities,
 HollowSizes HollowSizes::scaled(double factor) const {
   HollowSizes sizes = *this;
   sizes.wall *= factor;
+  sizes.closing *= factor;
   sizes.drain_diameter *= factor;
   for (DrainPlace& drain : sizes.drains) drain.diameter *= factor;
   return sizes;
@@ -341,16 +398,18 @@ HollowReport hollow_out(csg::Scene& scene, const HollowSizes& sizes,
   const std::vector<Layer> layers = slice_all(part, settings);
   if (layers.empty()) return report;
   report.solid_volume = volume_of(layers);
-  csg::Leaf shell = csg::make_shell(part, sizes.wall);
-  const std::vector<Layer> left_out =
-      slice_all(cavities_of(part, shell), settings);
+  csg::Leaf shell = csg::make_shell(part, sizes.wall + sizes.closing);
+  std::vector<Layer> left_out = slice_all(cavities_of(part, shell), settings);
+  if (sizes.closing > 0) {
+    left_out = detail::dilate(left_out, layers, sizes.closing);
+  }
   std::vector<Cavity> cavities = detail::find_cavities(left_out);
   number_layers(cavities, left_out, layers);
   if (cavities.empty()) {
     diagnostics.own_warning(
         {}, fmt::format("nothing is hollowed: no place is farther than {:g} mm "
                         "from the surface",
-                        sizes.wall));
+                        sizes.wall + sizes.closing));
     return report;
   }
   const double diameter = drain_diameter(sizes, part.box);
@@ -367,13 +426,10 @@ HollowReport hollow_out(csg::Scene& scene, const HollowSizes& sizes,
                         diameter));
     return report;
   }
-  HollowScene hollow(part, std::move(shell));
+  HollowScene hollow =
+      make_hollow(part, std::move(shell), cavities, plan, layers, sizes);
   for (std::size_t i = 0; i < cavities.size(); ++i) {
-    if (plan.is_kept[i]) {
-      report.saved_volume += cavities[i].volume;
-    } else {
-      hollow.fill(fill_of(cavities[i], layers));
-    }
+    if (plan.is_kept[i]) report.saved_volume += cavities[i].volume;
   }
   for (const Drain& drain : plan.drains) hollow.drill(drain);
   if (supports) hollow.add_beside(*supports);

@@ -32,6 +32,9 @@ struct DrainPlace {
 
 struct HollowSizes {
   double wall = 0;  // least thickness [mm]
+  // Not 0: what of a cavity no ball of this radius reaches stays solid [mm].
+  // Cavities are then stacks of prisms, one for each layer.
+  double closing = 0;
   // Not empty: drains are at these places only, and cavities without one stay
   // solid.
   std::vector<DrainPlace> drains = {};

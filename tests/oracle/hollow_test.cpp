@@ -105,6 +105,35 @@ TEST_P(HollowWalls, AreAsThickAsAskedFor) {
   EXPECT_LE(greatest, wall * (1 + csg::kShellExcess) + kRounding);
 }
 
+// In the layers of the run: between them the cavities are prisms.
+TEST_P(HollowWalls, AreNoThinnerWhereNarrowPlacesStaySolid) {
+  const auto& [piece, wall] = GetParam();
+  const support::TemporaryFolder folder;
+  const csg::Mesh surface =
+      render_with_openscad(folder.write("a.scad", kPieces[piece]));
+  const support::Design design = support::Design::from_text(kPieces[piece]);
+  csg::Scene scene = design.scene();
+  const double low = scene.box.low.z;
+  const double height = scene.box.size().z;
+  constexpr double kLayer = 0.1;
+  slicer::Settings settings;
+  settings.layer_thickness = kLayer;
+  Diagnostics diagnostics;
+  slicer::hollow_out(scene, {.wall = wall, .closing = 0.5, .has_drains = false},
+                     settings, diagnostics);
+  std::vector<double> heights;
+  for (int k = 0; (k + 1) * kLayer < height; k += 3) {
+    heights.push_back(low + (k + 0.5) * kLayer);
+  }
+  double least = 1e9;
+  for (const double distance : distances_from(
+           surface, places_on(support::slice_heights(scene, heights)))) {
+    if (distance > 1e-4) least = std::min(least, distance);
+  }
+  // Layers were simplified before they were dilated.
+  EXPECT_GE(least, wall - 0.0021);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Pieces, HollowWalls,
     testing::Combine(testing::Range(0, static_cast<int>(std::size(kPieces))),

@@ -187,7 +187,8 @@ TEST(Hollow, APlaceOfTheUsersIsDrilled) {
   sizes.drains.push_back({{100, 0, 0}, 2});
   const Hollowed far = hollowed(text, sizes);
   ASSERT_EQ(far.warnings.size(), 1U);
-  EXPECT_NE(far.warnings[0].find("51 mm away"), std::string::npos) << far.warnings[0];
+  EXPECT_NE(far.warnings[0].find("51 mm away"), std::string::npos)
+      << far.warnings[0];
   EXPECT_EQ(far.report.drains.size(), 2U);
 }
 
@@ -205,6 +206,44 @@ TEST(Hollow, PlugsFitTheirDrains) {
   EXPECT_NEAR(with.box.high.x, 20 + 2 * (kPlugDistance + 2) - 0.05, 1e-3);
   EXPECT_EQ(with.print->count(FindingKind::kIsland), 0U);
   EXPECT_EQ(with.print->count(FindingKind::kLoosePart), 0U);
+}
+
+// What a ball sweeps in a box, by Steiner's formula.
+TEST(Hollow, ClosingRoundsTheCavity) {
+  const Hollowed box =
+      hollowed("cube([20, 16, 12]);",
+               {.wall = 1, .closing = 2, .has_drains = false}, 0.05);
+  const double a = 14;
+  const double b = 10;
+  const double h = 6;
+  const double pi = 3.14159265;
+  const double rounded = a * b * h + 2 * 2 * (a * b + a * h + b * h) +
+                         pi * 4 * (a + b + h) + 4.0 / 3 * pi * 8;
+  EXPECT_LE(box.report.saved_volume, rounded + 1e-6);
+  EXPECT_NEAR(box.report.saved_volume, rounded, 0.02 * rounded);
+  EXPECT_NEAR(slice_scene(box.scene, 0.05).volume,
+              box.report.solid_volume - box.report.saved_volume, 1e-3);
+}
+
+// Two boxes and a bar between them, whose cavity is 1 mm wide.
+TEST(Hollow, ClosingLeavesNarrowPlacesSolid) {
+  const std::string text =
+      "cube(10); translate([18, 0, 0]) cube(10); translate([9, 3.5, 3.5]) "
+      "cube([10, 3, 3]);";
+  HollowSizes sizes = {.wall = 1, .has_drains = false};
+  EXPECT_EQ(hollowed(text, sizes).report.cavities, 1U);
+  sizes.closing = 0.6;
+  const Hollowed closed = hollowed(text, sizes);
+  EXPECT_EQ(closed.report.cavities, 2U);
+  EXPECT_LT(closed.report.saved_volume, 2 * 512);
+  EXPECT_GT(closed.report.saved_volume, 2 * 512 * 0.93);
+  sizes.has_drains = true;
+  sizes.has_plugs = true;
+  const Hollowed drained = hollowed(text, sizes);
+  EXPECT_EQ(drained.report.drains.size(), 4U);
+  const SliceReport slices = slice_scene(drained.scene);
+  EXPECT_EQ(slices.print->count(FindingKind::kResinTrap), 0U);
+  EXPECT_EQ(slices.print->count(FindingKind::kLoosePart), 0U);
 }
 
 TEST(Hollow, AThinPartIsLeftAsItIs) {
