@@ -50,7 +50,8 @@ void add_price(const slicer::Price& price, Machine& machine) {
 std::string options_that_fit(const slicer::Printer& printer,
                              const GeometryRequest& geometry, Vec3 size) {
   // A box that is turned by other angles is not the part's.
-  if (geometry.axis == kAutomaticAxis || std::fmod(geometry.turn, 90) != 0) {
+  if (geometry.axis == kAutomaticAxis || geometry.up ||
+      std::fmod(geometry.turn, 90) != 0) {
     return {};
   }
   const auto turned = [](std::string_view axis, double turn) {
