@@ -8,7 +8,6 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "base/parallel.h"
@@ -17,6 +16,7 @@
 #include "compiler/passes.h"
 #include "compiler/supports.h"
 #include "csg/boundary/move_scene.h"
+#include "slicer/picture/front_picture.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/slice/slice.h"
 #include "slicer/supports/support_plan.h"
@@ -52,8 +52,7 @@ std::vector<Vec3> spread_directions(std::size_t count) {
 
 // Directions around another one, at an angle [rad].
 std::vector<Vec3> neighbours_of(Vec3 up, double angle) {
-  const Vec3 aside = glm::normalize(
-      glm::cross(up, std::abs(up.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0)));
+  const Vec3 aside = csg::perpendicular_to(up);
   const Vec3 other = glm::cross(up, aside);
   std::vector<Vec3> directions;
   for (std::size_t i = 0; i < kNeighbours; ++i) {
@@ -65,70 +64,6 @@ std::vector<Vec3> neighbours_of(Vec3 up, double angle) {
   }
   return directions;
 }
-
-// Draws layers from the front: what each covers along x; and supports.
-class FrontPicture {
- public:
-  explicit FrontPicture(const std::vector<slicer::Layer>& layers) {
-    for (const slicer::Layer& layer : layers) add(layer);
-  }
-
-  void add(const slicer::SupportPlan& plan) {
-    for (const slicer::Support& support : plan.supports) {
-      for (std::size_t i = 0; i + 1 < support.path.size(); ++i) {
-        add_rod(support.path[i], support.path[i + 1],
-                i == 0 ? support.tip : plan.sizes.pillar);
-      }
-    }
-    for (const slicer::Brace& brace : plan.braces) {
-      add_rod(brace[0], brace[1], plan.sizes.brace);
-    }
-  }
-
-  std::string take() const {
-    const Vec2 size = box_.size() + Vec2(2);
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} "
-        "{:.2f} {:.2f}\"><g stroke=\"#7f9bb8\" stroke-linecap=\"round\">{}</g>"
-        "<path fill=\"#d9a066\" d=\"{}\"/></svg>",
-        box_.low.x - 1, -box_.high.y - 1, size.x, size.y, rods_, part_);
-  }
-
- private:
-  void add(const slicer::Layer& layer) {
-    std::vector<std::pair<double, double>> spans;
-    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
-      Box2 box;
-      box.add(layer.contours.loop(i));
-      spans.emplace_back(box.low.x, box.high.x);
-    }
-    std::ranges::sort(spans);
-    for (std::size_t i = 0; i < spans.size();) {
-      auto [low, high] = spans[i];
-      for (++i; i < spans.size() && spans[i].first <= high; ++i) {
-        high = std::max(high, spans[i].second);
-      }
-      box_.add(Vec2(low, layer.bottom));
-      box_.add(Vec2(high, layer.top));
-      fmt::format_to(std::back_inserter(part_),
-                     "M{:.2f} {:.2f}h{:.2f}v{:.2f}h{:.2f}z", low, -layer.bottom,
-                     high - low, layer.bottom - layer.top - 0.02, low - high);
-    }
-  }
-
-  void add_rod(Vec3 from, Vec3 to, double width) {
-    box_.add(Vec2(from.x, from.z));
-    box_.add(Vec2(to.x, to.z));
-    fmt::format_to(std::back_inserter(rods_),
-                   "<path stroke-width=\"{:.2f}\" d=\"M{:.2f} {:.2f}L{:.2f} "
-                   "{:.2f}\"/>",
-                   width, from.x, -from.z, to.x, -to.z);
-  }
-
-  Box2 box_;
-  std::string part_;
-  std::string rods_;
-};
 
 // Whether a is as good as b in all that counts, and better in some.
 template <std::size_t count>
@@ -191,15 +126,11 @@ class Search {
         request_(request),
         machine_(machine),
         settings_(settings_of(request, machine)),
+        sizes_(support_sizes(
+            options.sizes.value_or(slicer::SupportSizes{.tip = 0}), machine)),
         options_(options),
         steps_(options.directions + options.planned) {
     settings_.threads = 1;
-    sizes_ = options.sizes.value_or(slicer::SupportSizes{.tip = 0});
-    if (sizes_.tip == 0) {
-      sizes_.tip = machine.material && machine.material->support_tip > 0
-                       ? machine.material->support_tip
-                       : slicer::SupportSizes().tip;
-    }
   }
 
   OrientResult find() {
@@ -293,22 +224,19 @@ class Search {
   }
 
   void plan_supports(JudgedDirection& one) const {
-    slicer::LayerList list;
-    Diagnostics unshown;
     const csg::Scene scene = turned(one.up);
-    slicer::slice(scene, slicer::plan_layers(scene, settings_), settings_, list,
-                  unshown);
-    FrontPicture picture(list.layers);
+    const std::vector<slicer::Layer> layers =
+        slicer::all_layers(scene, settings_);
+    slicer::SupportPlan plan;
     // Where nothing hangs it stands on the bed, without supports.
     if (one.islands > 0 || one.overhang > 0) {
-      const slicer::SupportPlan plan = slicer::plan_supports(
-          list.layers, sizes_, marked_solids(scene, list.layers, request_));
+      plan = slicer::plan_supports(layers, sizes_,
+                                   marked_solids(scene, layers, request_));
       one.contacts = plan.supports.size();
       one.contact_area = plan.contact_area();
       one.support_volume = plan.volume();
       one.unheld = plan.unheld.size() + plan.unwanted.size();
-      if (one.contacts > 0) one.height += list.layers.front().bottom - plan.bed;
-      picture.add(plan);
+      if (one.contacts > 0) one.height += layers.front().bottom - plan.bed;
     }
     one.layers = static_cast<std::size_t>(
         std::ceil(one.height / settings_.layer_thickness));
@@ -317,7 +245,7 @@ class Search {
                                            one.layers, 0, 0)
                         .seconds;
     }
-    one.picture = picture.take();
+    one.picture = slicer::front_svg(layers, plan);
   }
 
   void step_on() {
@@ -332,7 +260,7 @@ class Search {
   const Request& request_;
   const Machine& machine_;
   slicer::Settings settings_;
-  slicer::SupportSizes sizes_;
+  const slicer::SupportSizes sizes_;
   const OrientOptions& options_;
   const std::size_t steps_;
   std::mutex mutex_;

@@ -14,25 +14,18 @@ namespace lamina::compiler {
 namespace {
 
 // Measures layers on their way to a sink.
-class MeasuringSink : public slicer::LayerSink {
+class MeasuringSink : public slicer::ForwardingSink {
  public:
   MeasuringSink(slicer::LayerSink& sink, slicer::SliceReport& report)
-      : sink_(sink), report_(report) {}
+      : ForwardingSink(sink), report_(report) {}
 
-  void begin(const Box3& box) override { sink_.begin(box); }
-  void expect(std::uint32_t layers) override { sink_.expect(layers); }
-  std::string encode(const slicer::Layer& layer) const override {
-    return sink_.encode(layer);
-  }
-  void take(const slicer::Layer& layer) override { take_encoded(layer, {}); }
   void take_encoded(const slicer::Layer& layer,
                     const std::string& encoded) override {
     report_.add(slicer::measure(layer.contours), layer.bottom, layer.top);
-    sink_.take_encoded(layer, encoded);
+    ForwardingSink::take_encoded(layer, encoded);
   }
 
  private:
-  slicer::LayerSink& sink_;
   slicer::SliceReport& report_;
 };
 

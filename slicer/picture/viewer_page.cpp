@@ -119,10 +119,6 @@ std::string script_text(const Json& json) {
                   '<', "\\u003c");
 }
 
-std::string escape_html(std::string_view text) {
-  return replaced(replaced(text, '&', "&amp;"), '<', "&lt;");
-}
-
 // The places that the page lists and marks, as JSON: a row has kind, first and
 // last layer, the layer to go to, x, y, how much around it belongs to it [mm],
 // a text, and the index of what made it, or -1.
