@@ -42,6 +42,9 @@ std::string on_one_line(std::string_view text);
 // first 100 characters and "…".
 std::string short_name(std::string_view name);
 
+// As the text of an HTML or SVG element, or a quoted attribute.
+std::string escape_html(std::string_view text);
+
 std::string first_line(std::string_view text);
 
 // Blanks of ASCII: of plain text, not of Unicode.

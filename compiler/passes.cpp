@@ -145,24 +145,19 @@ void turn_automatically(const Request& request, const Machine& machine,
 
 // Counts layers on their way to a sink. Both must outlive it; the progress may
 // be empty.
-class CountingSink : public slicer::LayerSink {
+class CountingSink : public slicer::ForwardingSink {
  public:
   CountingSink(slicer::LayerSink& sink, const Progress& progress)
-      : sink_(sink), progress_(progress) {}
+      : ForwardingSink(sink), progress_(progress) {}
 
-  void begin(const Box3& box) override { sink_.begin(box); }
   void expect(std::uint32_t layers) override {
     all_ = layers;
-    sink_.expect(layers);
+    ForwardingSink::expect(layers);
     if (progress_) progress_(0, all_);
   }
-  std::string encode(const slicer::Layer& layer) const override {
-    return sink_.encode(layer);
-  }
-  void take(const slicer::Layer& layer) override { take_encoded(layer, {}); }
   void take_encoded(const slicer::Layer& layer,
                     const std::string& encoded) override {
-    sink_.take_encoded(layer, encoded);
+    ForwardingSink::take_encoded(layer, encoded);
     if (progress_) progress_(++done_, all_);
   }
   // Fewer layers can come than were expected.
@@ -171,7 +166,6 @@ class CountingSink : public slicer::LayerSink {
   }
 
  private:
-  slicer::LayerSink& sink_;
   const Progress& progress_;
   std::uint64_t done_ = 0;
   std::uint64_t all_ = 0;

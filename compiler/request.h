@@ -57,7 +57,7 @@ struct GeometryRequest {
   std::string axis = "z";  // of slicer::kAxes, or kAutomaticAxis
   // A direction of the design that points up, instead of an axis.
   std::optional<Vec3> up;
-  double turn = 0;         // about the axis, anticlockwise from above [degrees]
+  double turn = 0;  // about the axis, anticlockwise from above [degrees]
   bool is_placed_on_bed = false;
   double scale = 1;
   double chordal_error = 0;  // [mm]; 0: $fa and $fs decide

@@ -13,11 +13,13 @@
 #include "compiler/compile.h"
 #include "compiler/machine.h"
 #include "compiler/source_lines.h"
+#include "csg/boundary/move_scene.h"
 #include "csg/support_tip.h"
 #include "slicer/check/thin/thin_finder.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/slice/leaf_at.h"
 #include "slicer/slice/scene_parts.h"
+#include "slicer/slice/slice.h"
 #include "slicer/supports/support_text.h"
 
 namespace lamina::compiler {
@@ -38,33 +40,6 @@ Request without_supports(const Request& request) {
   part.job.min_feature = 0;
   part.job.finds_makers = false;
   return part;
-}
-
-// Of a turn: its transpose.
-Affine inverse_of(const Affine& turn) {
-  return {Vec3(turn[0].x, turn[1].x, turn[2].x),
-          Vec3(turn[0].y, turn[1].y, turn[2].y),
-          Vec3(turn[0].z, turn[1].z, turn[2].z), Vec3(0)};
-}
-
-// A tip that the request does not give is that of the material.
-slicer::SupportSizes support_sizes(const Request& request,
-                                   const Machine& machine) {
-  slicer::SupportSizes sizes = *request.supports;
-  if (sizes.tip == 0 && machine.material) {
-    sizes.tip = machine.material->support_tip;
-  }
-  if (sizes.tip == 0) sizes.tip = slicer::SupportSizes().tip;
-  return sizes;
-}
-
-std::vector<slicer::Layer> slice_all(const csg::Scene& scene,
-                                     const slicer::Settings& settings) {
-  slicer::LayerList list;
-  Diagnostics unshown;  // the run itself will say it
-  slicer::slice(scene, slicer::plan_layers(scene, settings), settings, list,
-                unshown);
-  return std::move(list.layers);
 }
 
 std::vector<double> heights_of(const std::vector<slicer::Layer>& layers) {
@@ -170,6 +145,16 @@ void name_lines(const csg::Scene& scene,
 
 }  // namespace
 
+slicer::SupportSizes support_sizes(const slicer::SupportSizes& asked,
+                                   const Machine& machine) {
+  slicer::SupportSizes sizes = asked;
+  if (sizes.tip == 0 && machine.material) {
+    sizes.tip = machine.material->support_tip;
+  }
+  if (sizes.tip == 0) sizes.tip = slicer::SupportSizes().tip;
+  return sizes;
+}
+
 std::vector<slicer::MarkedSolid> marked_solids(
     const csg::Scene& scene, const std::vector<slicer::Layer>& layers,
     const Request& request) {
@@ -191,7 +176,7 @@ std::vector<slicer::MarkedSolid> marked_solids(
   for (const double tip : tips) {
     const auto leaves = slicer::leaves_of(
         scene, [&](const csg::Instance& one) { return tip_of(one) == tip; });
-    marked.push_back({tip, slice_all(*leaves, settings)});
+    marked.push_back({tip, slicer::all_layers(*leaves, settings)});
   }
   return marked;
 }
@@ -208,7 +193,7 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
   try {
     lowered = make_geometry(compilation);
     if (!lowered || lowered->scene() == nullptr) return std::nullopt;
-    layers = slice_all(*lowered->scene(), part.job);
+    layers = slicer::all_layers(*lowered->scene(), part.job);
   } catch (const InternalError&) {
     throw;
   } catch (const Error&) {
@@ -222,7 +207,7 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
   warn_of_marks(scene, lines_of(request), diagnostics);
   slicer::SupportPlan plan = slicer::plan_supports(
       layers,
-      support_sizes(request,
+      support_sizes(*request.supports,
                     choose_machine(request.output, files.file_access())),
       marked_solids(scene, layers, request));
   name_lines(scene, layers, plan);
@@ -232,7 +217,7 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
 
 std::string support_lines(const slicer::SupportPlan& plan,
                           const GeometryRequest& geometry) {
-  return slicer::support_text(plan, inverse_of(turn_of(geometry)));
+  return slicer::support_text(plan, csg::inverse_of(turn_of(geometry)));
 }
 
 }  // namespace lamina::compiler

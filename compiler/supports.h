@@ -7,6 +7,7 @@
 
 #include "base/diagnostic.h"
 #include "base/file/temporary_files.h"
+#include "compiler/machine.h"
 #include "compiler/request.h"
 #include "csg/scene.h"
 #include "slicer/supports/support_plan.h"
@@ -24,6 +25,10 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
                                                  std::size_t evaluation_stack,
                                                  TemporaryFiles& files,
                                                  Diagnostics& diagnostics);
+
+// A tip of 0 becomes that of the material, or the usual one.
+slicer::SupportSizes support_sizes(const slicer::SupportSizes& asked,
+                                   const Machine& machine);
 
 // The leaves whose tips the design or the request decides, by their diameter:
 // where none are wanted comes first.

@@ -2,21 +2,7 @@
 
 #include <cstddef>
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 namespace lamina::csg {
-
-namespace {
-
-Box3 overlap(const Box3& a, const Box3& b) {
-  Box3 both;
-  both.low = glm::max(a.low, b.low);
-  both.high = glm::min(a.high, b.high);
-  return glm::all(glm::lessThanEqual(both.low, both.high)) ? both : Box3{};
-}
-
-}  // namespace
 
 Box3 bounds_of(const Scene& scene) {
   struct Bounds {
@@ -28,7 +14,9 @@ Box3 bounds_of(const Scene& scene) {
     const plane::BooleanNode& parent = scene.program[child.parent];
     Bounds& of = bounds[child.parent];
     if (parent.op == plane::BooleanOp::kIntersection) {
-      of.box = of.is_open ? box : overlap(of.box, box);
+      if (of.is_open) of.box = box;
+      of.box.intersect(box);
+      if (of.box.is_empty()) of.box = {};
     } else if (parent.op == plane::BooleanOp::kUnion || child.is_minuend) {
       of.box.add(box);
     }

@@ -93,11 +93,12 @@ class SupportsCommand : public Command {
     const std::string part =
         relative_path(request_.design.path, folder_of(output_));
     // A design cannot take anything from what it includes.
-    const std::string hollow =
-        request_.hollow ? fmt::format("// Hollow where it is sliced with "
-                                      "--hollow {:g}.\n",
-                                      request_.hollow->wall)
-                        : "";
+    const std::string hollow = request_.hollow
+                                   ? fmt::format(
+                                         "// Hollow where it is sliced with "
+                                         "--hollow {:g}.\n",
+                                         request_.hollow->wall)
+                                   : "";
     return hollow +
            (compiler::is_imported(request_.design.path)
                 ? compiler::import_of(part, request_.design.part) + "\n"

@@ -1,5 +1,9 @@
 #include "csg/boundary/move_scene.h"
 
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
 #include "csg/boundary/leaf_mesh.h"
 
 namespace lamina::csg {
@@ -14,6 +18,17 @@ Box3 turn_box(const Box3& box, const Affine& turn) {
 }
 
 }  // namespace
+
+Affine inverse_of(const Affine& turn) {
+  return {Vec3(turn[0].x, turn[1].x, turn[2].x),
+          Vec3(turn[0].y, turn[1].y, turn[2].y),
+          Vec3(turn[0].z, turn[1].z, turn[2].z), Vec3(0)};
+}
+
+Vec3 perpendicular_to(Vec3 direction) {
+  return glm::normalize(glm::cross(
+      direction, std::abs(direction.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0)));
+}
 
 void move_scene(Scene& scene, const Affine& turn, Vec3 shift) {
   for (Instance& instance : scene.instances) {

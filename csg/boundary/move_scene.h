@@ -1,9 +1,15 @@
 #pragma once
-// A scene in another place.
+// A scene in another place, and what turns are made of.
 
 #include "csg/scene.h"
 
 namespace lamina::csg {
+
+// The inverse of a turn, without any shift: its transpose.
+Affine inverse_of(const Affine& turn);
+
+// A unit vector at a right angle to a unit vector.
+Vec3 perpendicular_to(Vec3 direction);
 
 // Turns the scene, then shifts it.
 //

@@ -63,6 +63,25 @@ class LayerDrain : public LayerSink {
   void take(const Layer& /*layer*/) override {}
 };
 
+// Hands all on to another sink, which outlives it.
+class ForwardingSink : public LayerSink {
+ public:
+  explicit ForwardingSink(LayerSink& sink) : sink_(sink) {}
+
+  void begin(const Box3& box) override { sink_.begin(box); }
+  void expect(std::uint32_t layers) override { sink_.expect(layers); }
+  std::string encode(const Layer& layer) const override {
+    return sink_.encode(layer);
+  }
+  void take(const Layer& layer) override { take_encoded(layer, {}); }
+  void take_encoded(const Layer& layer, const std::string& encoded) override {
+    sink_.take_encoded(layer, encoded);
+  }
+
+ private:
+  LayerSink& sink_;
+};
+
 // Keeps all layers.
 struct LayerList : LayerSink {
   void take(const Layer& layer) override { layers.push_back(layer); }

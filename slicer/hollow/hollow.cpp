@@ -14,6 +14,7 @@
 
 #include "base/text.h"
 #include "csg/boundary/leaf_mesh.h"
+#include "csg/boundary/move_scene.h"
 #include "csg/minkowski/shell.h"
 #include "plane/region/offset.h"
 #include "slicer/contour/layer.h"
@@ -40,18 +41,16 @@ constexpr int kRodFacets = 32;
 // is a mistake.
 constexpr double kFarDrain = 5;
 
+// None of a scene in which nothing is left.
 std::vector<Layer> slice_all(const csg::Scene& scene, const Settings& asked) {
   Settings settings;
   settings.layer_thickness = asked.layer_thickness;
   settings.threads = asked.threads;
-  LayerList list;
-  Diagnostics unshown;  // the run itself will say it
   try {
-    slice(scene, plan_layers(scene, settings), settings, list, unshown);
+    return all_layers(scene, settings);
   } catch (const GeometryError&) {
     return {};
   }
-  return std::move(list.layers);
 }
 
 double volume_of(const std::vector<Layer>& layers) {
@@ -85,8 +84,7 @@ csg::Leaf make_rod() {
 Affine place_of(const Drain& drain) {
   const Vec3 axis = drain.to - drain.from;
   const Vec3 up = glm::normalize(axis);
-  const Vec3 aside = glm::normalize(
-      glm::cross(up, std::abs(up.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0)));
+  const Vec3 aside = csg::perpendicular_to(up);
   return {drain.diameter * aside, drain.diameter * glm::cross(up, aside), axis,
           drain.from};
 }
@@ -128,6 +126,33 @@ csg::Leaf fill_of(const Cavity& cavity, const std::vector<Layer>& layers) {
                   layers.front().top - layers.front().bottom);
 }
 
+// Adds the program of a part, moved, as the first operand of an operator.
+//
+// leaves  where the part's leaves begin among those of the scene
+void add_minuend(const csg::Scene& part, std::uint32_t parent,
+                 std::uint32_t leaves, const Affine& motion,
+                 csg::Scene& scene) {
+  const auto first = static_cast<std::uint32_t>(scene.program.size());
+  for (std::uint32_t n = 0; n < part.program.size(); ++n) {
+    plane::BooleanNode node = part.program[n];
+    node.parent = n == 0 ? parent : first + node.parent;
+    node.is_minuend = node.is_minuend || n == 0;
+    scene.program.push_back(node);
+  }
+  ++scene.program[parent].child_count;
+  for (csg::Instance instance : part.instances) {
+    instance.leaf += leaves;
+    instance.parent += first;
+    if (motion != Affine(1.0)) {
+      Affine& matrix = instance.world_from_leaf;
+      matrix = motion * Mat4(matrix);
+      instance.box = csg::bound_leaf(scene.leaves[instance.leaf], matrix)
+                         .shifted(matrix[3]);
+    }
+    scene.instances.push_back(instance);
+  }
+}
+
 // Builds the program of a hollow part, (hollow − drains) ∪ plugs, where hollow
 // is part ∩ (shell ∪ fills) or part − cavities.
 class HollowScene {
@@ -144,17 +169,6 @@ class HollowScene {
     begin();
   }
 
- private:
-  void begin() {
-    rod_ = add_leaf(make_rod());
-    add_node(plane::BooleanOp::kUnion, 0);
-    const std::uint32_t drilled = add_node(plane::BooleanOp::kDifference, 0);
-    scene_.program[drilled].is_minuend = true;
-    add_hollow(drilled, Affine(1.0));
-    scene_.box = part_.box;
-  }
-
- public:
   void fill(csg::Leaf leaf) {
     place(add_leaf(std::move(leaf)), Affine(1.0), wall_);
   }
@@ -171,7 +185,7 @@ class HollowScene {
     const Affine turn = {glm::normalize(from_rod[0]),
                          glm::normalize(from_rod[1]),
                          glm::normalize(from_rod[2]), Vec3(0)};
-    Affine motion = inverse_of(turn);
+    Affine motion = csg::inverse_of(turn);
     motion[3] = foot - motion * Vec4(rod.from, 0);
     const std::uint32_t plug = add_node(plane::BooleanOp::kIntersection, 0);
     scene_.program[add_hollow(plug, motion)].is_minuend = false;
@@ -197,9 +211,13 @@ class HollowScene {
  private:
   static constexpr std::uint32_t kDrilled = 1;
 
-  static Affine inverse_of(const Affine& turn) {
-    const auto linear = glm::transpose(glm::dmat3(turn[0], turn[1], turn[2]));
-    return {linear[0], linear[1], linear[2], Vec3(0)};
+  void begin() {
+    rod_ = add_leaf(make_rod());
+    add_node(plane::BooleanOp::kUnion, 0);
+    const std::uint32_t drilled = add_node(plane::BooleanOp::kDifference, 0);
+    scene_.program[drilled].is_minuend = true;
+    add_hollow(drilled, Affine(1.0));
+    scene_.box = part_.box;
   }
 
   std::uint32_t add_leaf(csg::Leaf leaf) {
@@ -246,31 +264,12 @@ class HollowScene {
     return hollow;
   }
 
-  // As the first operand of an operator.
   void add_part(std::uint32_t parent, const Affine& motion) {
-    const auto first = static_cast<std::uint32_t>(scene_.program.size());
-    for (std::uint32_t n = 0; n < part_.program.size(); ++n) {
-      plane::BooleanNode node = part_.program[n];
-      node.parent = n == 0 ? parent : first + node.parent;
-      node.is_minuend = node.is_minuend || n == 0;
-      scene_.program.push_back(node);
-    }
-    ++scene_.program[parent].child_count;
     if (leaves_ == kNoLeaf) {
       leaves_ = static_cast<std::uint32_t>(scene_.leaves.size());
       for (const csg::Leaf& leaf : part_.leaves) add_leaf(leaf);
     }
-    for (csg::Instance instance : part_.instances) {
-      instance.leaf += leaves_;
-      instance.parent += first;
-      instance.world_from_leaf = motion * Mat4(instance.world_from_leaf);
-      if (motion != Affine(1.0)) {
-        instance.box = csg::bound_leaf(scene_.leaves[instance.leaf],
-                                       instance.world_from_leaf)
-                           .shifted(instance.world_from_leaf[3]);
-      }
-      scene_.instances.push_back(instance);
-    }
+    add_minuend(part_, parent, leaves_, motion, scene_);
   }
 
   static constexpr std::uint32_t kNoLeaf = 0xffffffff;
@@ -289,16 +288,8 @@ csg::Scene cavities_of(const csg::Scene& part, const csg::Leaf& shell) {
   csg::Scene rest;
   rest.leaves = part.leaves;
   rest.leaves.push_back(shell);
-  rest.program.push_back({plane::BooleanOp::kDifference, 0, false, 2});
-  for (plane::BooleanNode node : part.program) {
-    node.parent = rest.program.size() == 1 ? 0 : node.parent + 1;
-    node.is_minuend = node.is_minuend || rest.program.size() == 1;
-    rest.program.push_back(node);
-  }
-  for (csg::Instance instance : part.instances) {
-    ++instance.parent;
-    rest.instances.push_back(instance);
-  }
+  rest.program.push_back({plane::BooleanOp::kDifference, 0, false, 1});
+  add_minuend(part, 0, 0, Affine(1.0), rest);
   csg::Instance& wall = rest.instances.emplace_back();
   wall.leaf = static_cast<std::uint32_t>(part.leaves.size());
   wall.box = shell.box;

@@ -9,13 +9,13 @@ constexpr double kSlack = 1e-6;
 }  // namespace
 
 BuildVolumeSink::BuildVolumeSink(const Printer& printer, LayerSink& sink)
-    : printer_(printer), sink_(sink), size_(0) {}
+    : ForwardingSink(sink), printer_(printer), size_(0) {}
 
 void BuildVolumeSink::begin(const Box3& box) {
   size_ = box.size();
   const Vec3 half = printer_.build_volume() / 2.0 + kSlack;
   box_ = {box.center() - half, box.center() + half};
-  sink_.begin(box);
+  ForwardingSink::begin(box);
 }
 
 void BuildVolumeSink::take_encoded(const Layer& layer,
@@ -31,7 +31,7 @@ void BuildVolumeSink::take_encoded(const Layer& layer,
            point.y >= box_.low.y && point.y <= box_.high.y;
   }
   if (!fits) throw TooLarge(printer_, size_);
-  sink_.take_encoded(layer, encoded);
+  ForwardingSink::take_encoded(layer, encoded);
 }
 
 }  // namespace lamina::slicer

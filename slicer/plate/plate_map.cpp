@@ -7,34 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "plane/loop_area.h"
 #include "slicer/plate/footprint.h"
 
 namespace lamina::slicer {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 constexpr double kLeastLetter = 0.8;  // [mm]
 constexpr double kGreatestLetter = 4;
@@ -59,7 +37,7 @@ std::string label(const std::string& name, const Box2& box, double depth) {
       is_upright ? fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"",
                                place.x, place.y)
                  : "",
-      escaped(name));
+      escape_html(name));
 }
 
 // The colours of neighbouring pieces differ, those of copies do not.
@@ -102,8 +80,8 @@ std::string plate_svg(std::span<const MappedPiece> pieces,
       }
       svg += 'Z';
     }
-    fmt::format_to(out, "\"><title>{}</title></path>\n{}", escaped(piece.name),
-                   label(piece.name, box, size.y));
+    fmt::format_to(out, "\"><title>{}</title></path>\n{}",
+                   escape_html(piece.name), label(piece.name, box, size.y));
   }
   return svg + "</svg>\n";
 }
@@ -119,15 +97,16 @@ std::string plate_page(std::span<const MappedPiece> pieces,
       "li{display:inline-block;margin-right:1.5em}ul{padding:0}"
       "</style></head><body>\n";
   for (const MappedPlate& plate : plates) {
-    page += fmt::format("<section><h2>{}</h2>\n{}<ul>", escaped(plate.title),
-                        plate_svg(pieces, plate.placements, size));
+    page +=
+        fmt::format("<section><h2>{}</h2>\n{}<ul>", escape_html(plate.title),
+                    plate_svg(pieces, plate.placements, size));
     std::map<std::size_t, std::size_t> counts;
     for (const Placement& placement : plate.placements) {
       ++counts[placement.piece];
     }
     for (const auto& [piece, count] : counts) {
-      page +=
-          fmt::format("<li>{} × {}</li>", count, escaped(pieces[piece].name));
+      page += fmt::format("<li>{} × {}</li>", count,
+                          escape_html(pieces[piece].name));
     }
     page += "</ul></section>\n";
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -220,6 +221,14 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
     throw_empty(report);
   }
   return report;
+}
+
+std::vector<Layer> all_layers(const csg::Scene& scene,
+                              const Settings& settings) {
+  LayerList list;
+  Diagnostics unshown;
+  slice(scene, plan_layers(scene, settings), settings, list, unshown);
+  return std::move(list.layers);
 }
 
 SliceReport slice_outline(const plane::Region& outline,

@@ -73,6 +73,11 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
                   const Settings& settings, LayerSink& sink,
                   Diagnostics& diagnostics);
 
+// All layers, for what plans by them: what slicing says is dropped, since the
+// run itself says it. Throws as slice() does.
+std::vector<Layer> all_layers(const csg::Scene& scene,
+                              const Settings& settings);
+
 // The one layer of a 2D design, at height 0, with all its vertices.
 SliceReport slice_outline(const plane::Region& outline,
                           const Settings& settings, LayerSink& sink,

@@ -66,18 +66,22 @@ std::vector<Vec3> places_on(const std::vector<slicer::Layer>& layers) {
   return places;
 }
 
-class HollowWalls : public testing::TestWithParam<std::tuple<int, double>> {};
+class HollowWalls : public testing::TestWithParam<std::tuple<int, double>> {
+ protected:
+  const char* text() const { return kPieces[std::get<0>(GetParam())]; }
+
+  const double wall_ = std::get<1>(GetParam());
+  const support::TemporaryFolder folder_;
+  const csg::Mesh surface_ =
+      render_with_openscad(folder_.write("a.scad", text()));
+  const support::Design design_ = support::Design::from_text(text());
+};
 
 TEST_P(HollowWalls, AreAsThickAsAskedFor) {
-  const auto& [piece, wall] = GetParam();
-  const support::TemporaryFolder folder;
-  const csg::Mesh surface =
-      render_with_openscad(folder.write("a.scad", kPieces[piece]));
-  const support::Design design = support::Design::from_text(kPieces[piece]);
-  csg::Scene scene = design.scene();
+  csg::Scene scene = design_.scene();
   Diagnostics diagnostics;
   const auto report = slicer::hollow_out(
-      scene, {.wall = wall, .has_drains = false}, {}, diagnostics);
+      scene, {.wall = wall_, .has_drains = false}, {}, diagnostics);
   ASSERT_GE(report.cavities, 1U);
   std::vector<double> heights;
   for (int i = 0; i < kSections; ++i) {
@@ -85,7 +89,7 @@ TEST_P(HollowWalls, AreAsThickAsAskedFor) {
                       (i + 0.37) / kSections * scene.box.size().z);
   }
   const std::vector<double> distances = distances_from(
-      surface, places_on(support::slice_heights(scene, heights)));
+      surface_, places_on(support::slice_heights(scene, heights)));
   // openscad's STL rounds to six digits.
   constexpr double kRounding = 1e-4;
   std::size_t inside = 0;
@@ -101,25 +105,21 @@ TEST_P(HollowWalls, AreAsThickAsAskedFor) {
   RecordProperty("least", std::to_string(least));
   RecordProperty("greatest", std::to_string(greatest));
   EXPECT_GT(inside, 10000U);
-  EXPECT_GE(least, wall - kRounding);
-  EXPECT_LE(greatest, wall * (1 + csg::kShellExcess) + kRounding);
+  EXPECT_GE(least, wall_ - kRounding);
+  EXPECT_LE(greatest, wall_ * (1 + csg::kShellExcess) + kRounding);
 }
 
 // In the layers of the run: between them the cavities are prisms.
 TEST_P(HollowWalls, AreNoThinnerWhereNarrowPlacesStaySolid) {
-  const auto& [piece, wall] = GetParam();
-  const support::TemporaryFolder folder;
-  const csg::Mesh surface =
-      render_with_openscad(folder.write("a.scad", kPieces[piece]));
-  const support::Design design = support::Design::from_text(kPieces[piece]);
-  csg::Scene scene = design.scene();
+  csg::Scene scene = design_.scene();
   const double low = scene.box.low.z;
   const double height = scene.box.size().z;
   constexpr double kLayer = 0.1;
   slicer::Settings settings;
   settings.layer_thickness = kLayer;
   Diagnostics diagnostics;
-  slicer::hollow_out(scene, {.wall = wall, .closing = 0.5, .has_drains = false},
+  slicer::hollow_out(scene,
+                     {.wall = wall_, .closing = 0.5, .has_drains = false},
                      settings, diagnostics);
   std::vector<double> heights;
   for (int k = 0; (k + 1) * kLayer < height; k += 3) {
@@ -127,11 +127,11 @@ TEST_P(HollowWalls, AreNoThinnerWhereNarrowPlacesStaySolid) {
   }
   double least = 1e9;
   for (const double distance : distances_from(
-           surface, places_on(support::slice_heights(scene, heights)))) {
+           surface_, places_on(support::slice_heights(scene, heights)))) {
     if (distance > 1e-4) least = std::min(least, distance);
   }
   // Layers were simplified before they were dilated.
-  EXPECT_GE(least, wall - 0.0021);
+  EXPECT_GE(least, wall_ - 0.0021);
 }
 
 INSTANTIATE_TEST_SUITE_P(

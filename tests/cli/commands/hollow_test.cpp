@@ -115,8 +115,10 @@ TEST_F(Hollow, BadValuesAreRefused) {
           {{"--hollow", "1", "--drain", "1,1,1,x"},
            "--drain: expected a diameter, X,Y,Z,DIAMETER or none, not "
            "'1,1,1,x'"},
-          {{"--drain", "1"}, "--hollow-closing, --drain and --drain-plug need --hollow"},
-          {{"--drain-plug"}, "--hollow-closing, --drain and --drain-plug need --hollow"},
+          {{"--drain", "1"},
+           "--hollow-closing, --drain and --drain-plug need --hollow"},
+          {{"--drain-plug"},
+           "--hollow-closing, --drain and --drain-plug need --hollow"},
           {{"--hollow", "1", "--drain", "none", "--drain", "1"},
            "--drain none goes with no other --drain"},
           {{"--hollow", "1", "--drain-plug", "--drain", "none"},
