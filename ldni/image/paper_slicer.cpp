@@ -105,14 +105,19 @@ void PaperSlicer::sample_block(std::uint32_t first_layer,
   counts_.samples += images_.samples.size();
 }
 
-void PaperSlicer::build_layer(std::uint32_t layer, plane::Contours& contours) {
+const LayerIntervals& PaperSlicer::intervals_of(std::uint32_t layer) {
   counts_.boolean_seconds += measure_seconds([&] {
     gather_layer(layer);
     evaluate_layer();
   });
+  counts_.intervals += intervals_.intervals.size();
+  return intervals_;
+}
+
+void PaperSlicer::build_layer(std::uint32_t layer, plane::Contours& contours) {
+  intervals_of(layer);
   counts_.link_seconds += measure_seconds(
       [&] { loop_builder_.build(plan_.rays, intervals_, contours); });
-  counts_.intervals += intervals_.intervals.size();
 }
 
 // Collects a layer's samples out of the images of all leaves: a counting sort

@@ -77,6 +77,10 @@ class PaperSlicer {
   // sampled block holds: Boolean, then links.
   void build_layer(std::uint32_t layer, plane::Contours& contours);
 
+  // The intervals of all rays in `layer`, which the sampled block holds; valid
+  // until the next call. For what wants the depth image of the result itself.
+  const LayerIntervals& intervals_of(std::uint32_t layer);
+
   PaperCounts counts() const;
 
  private:

@@ -89,6 +89,7 @@ const std::vector<std::string> kRooms = {"base",
                                          "slicer/plan",
                                          "slicer/machine",
                                          "slicer/check/thin",
+                                         "slicer/thickness",
                                          "slicer/check/print",
                                          "slicer/supports",
                                          "slicer/plate",
@@ -249,6 +250,7 @@ TEST(Includes, PackagesKeepToTheirHomes) {
       {"ft2build.h", {"csg/text/"}},
       {"hb", {"csg/text/"}},
       {"OpenMesh/", {"csg/import/decimate_module.cpp"}},
+      {"nanoflann", {"slicer/thickness/ball_finder.cpp"}},
   };
   for (const Include& include : includes_below(kProduct)) {
     for (const Home& home : homes) {

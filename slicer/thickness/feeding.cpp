@@ -1,0 +1,302 @@
+#include "slicer/thickness/feeding.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+
+#include "base/parallel.h"
+#include "base/union_find.h"
+
+namespace lamina::slicer {
+namespace {
+
+using Index = SolidCells::Index;
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// By what share the first look at a cell may take its ball for too large.
+constexpr double kFirstDoubt = 0.02;
+
+// A cell on the surface itself has a ball all the same [mm].
+constexpr double kLeastRadius = 1e-9;
+
+// How exactly the middle of the largest ball of a pool is found [pitches].
+constexpr double kClimbed = 0.02;
+
+// Cells that one task takes.
+constexpr std::size_t kCellsPerTask = 1 << 14;
+
+std::vector<Index> list_cells(const SolidCells& cells) {
+  std::vector<Index> list(cells.size());
+  cells.visit(
+      [&](std::uint32_t number, const Index& index) { list[number] = index; });
+  return list;
+}
+
+template <typename Body>
+void for_each_cell(std::size_t count, const Body& body) {
+  for_each_index(
+      (count + kCellsPerTask - 1) / kCellsPerTask, [&](std::size_t task) {
+        const std::size_t first = task * kCellsPerTask;
+        const std::size_t end = std::min(first + kCellsPerTask, count);
+        for (std::size_t i = first; i < end; ++i) {
+          body(static_cast<std::uint32_t>(i));
+        }
+      });
+}
+
+// Moves the middle of a pool's largest ball from that of a cell to where the
+// ball is largest: uphill, in steps that shrink from a pitch on. Steps are
+// shorter than the ball's radius, so none leads out of the solid.
+void climb(const BallFinder& balls, double pitch, Pool& pool) {
+  double radius = 0;
+  const auto try_place = [&](Vec3 place) {
+    const auto nearest = balls.nearest(place, pool.thickness + pitch);
+    if (!nearest || nearest->distance <= radius) return false;
+    radius = nearest->distance;
+    pool.place = place;
+    return true;
+  };
+  try_place(pool.place);
+  for (double step = std::min(pitch, radius / 2); step > kClimbed * pitch;) {
+    const Vec3 here = pool.place;
+    bool has_risen = false;
+    for (int i = 0; i < 27; ++i) {
+      has_risen |=
+          try_place(here + step * Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+    }
+    if (!has_risen) step /= 2;
+  }
+  pool.thickness = std::max(pool.thickness, 2 * radius);
+}
+
+// Sinks the height from the highest summit to the surface.
+class Flood {
+ public:
+  Flood(const SolidSamples& samples, const ThicknessField& field)
+      : samples_(samples),
+        field_(field),
+        cells_(list_cells(samples.cells)),
+        order_(cells_.size()),
+        rank_of_(cells_.size()) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::sort(order_.begin(), order_.end(),
+              [&](std::uint32_t a, std::uint32_t b) {
+                return std::tuple(-field_.radii[a], a) <
+                       std::tuple(-field_.radii[b], b);
+              });
+    for (std::uint32_t i = 0; i < order_.size(); ++i) rank_of_[order_[i]] = i;
+  }
+
+  void add_gate(const Gate& gate) {
+    if (order_.empty()) return;
+    const auto gap = [&](std::uint32_t cell) {
+      const Vec3 middle = samples_.cells.middle_of(cells_[cell]);
+      return glm::length(middle - gate.place) - field_.radii[cell];
+    };
+    const double slack =
+        std::max(kReach * samples_.cells.pitch(), gate.diameter / 2);
+    auto cell = std::find_if(order_.begin(), order_.end(),
+                             [&](auto one) { return gap(one) <= slack; });
+    if (cell == order_.end()) {
+      cell = std::min_element(
+          order_.begin(), order_.end(),
+          [&](auto one, auto other) { return gap(one) < gap(other); });
+    }
+    const double radius = field_.radii[*cell];
+    gates_.emplace_back(
+        gate.diameter > 0 ? std::min(gate.diameter / 2, radius) : radius,
+        *cell);
+  }
+
+  std::vector<Pool> run() {
+    std::sort(gates_.rbegin(), gates_.rend());
+    // Set 0 is the gate; set i + 1 begins with the cell of rank i. The least
+    // number of a set is so that of its summit.
+    sets_ = UnionFind(cells_.size() + 1);
+    pools_ = UnionFind(cells_.size() + 1);
+    pool_of_.assign(cells_.size(), 0);
+    std::size_t gate = 0;
+    for (std::uint32_t rank = 0; rank < order_.size(); ++rank) {
+      const std::uint32_t cell = order_[rank];
+      for (; gate < gates_.size() && gates_[gate].first > field_.radii[cell];
+           ++gate) {
+        open_gate(gates_[gate]);
+      }
+      join_neighbours(rank, cell);
+    }
+    for (; gate < gates_.size(); ++gate) open_gate(gates_[gate]);
+    return collect();
+  }
+
+ private:
+  struct Neck {
+    std::uint32_t cell = kNone;
+    double radius = 0;
+  };
+
+  template <typename Visit>
+  void visit_around(const Index& middle, const Visit& visit) const {
+    for (int z = -1; z <= 1; ++z) {
+      for (int x = -1; x <= 1; ++x) {
+        for (int y = -1; y <= 1; ++y) {
+          const auto cell =
+              samples_.cells.find({middle.x + x, middle.y + y, middle.z + z});
+          if (cell) visit(*cell);
+        }
+      }
+    }
+  }
+
+  void open_gate(const std::pair<double, std::uint32_t>& gate) {
+    const auto [radius, cell] = gate;
+    join(0, sets_.find(rank_of_[cell] + 1), {cell, radius});
+  }
+
+  void join_neighbours(std::uint32_t rank, std::uint32_t cell) {
+    const std::uint32_t here = rank + 1;
+    std::uint32_t highest = kNone;
+    visit_around(cells_[cell], [&](std::uint32_t other) {
+      if (rank_of_[other] < rank) highest = std::min(highest, rank_of_[other]);
+    });
+    if (highest == kNone) {
+      pool_of_[cell] = here;  // a summit
+      return;
+    }
+    // The cell belongs to the highest beside it, and joins the others.
+    pool_of_[cell] = pool_of_[order_[highest]];
+    sets_.unite(here, highest + 1);
+    visit_around(cells_[cell], [&](std::uint32_t other) {
+      if (rank_of_[other] >= rank) return;
+      join(sets_.find(here), sets_.find(rank_of_[other] + 1),
+           {cell, field_.radii[cell]});
+    });
+  }
+
+  // a, b  summits of two sets
+  void join(std::uint32_t a, std::uint32_t b, const Neck& neck) {
+    if (a == b) return;
+    const std::uint32_t low = std::max(a, b);
+    const double summit = field_.radii[order_[low - 1]];
+    const double least = std::min(summit * (1 - kFeedShare),
+                                  summit - kNeckDoubt * samples_.cells.pitch());
+    necks_[low] = neck;
+    if (neck.radius >= least) pools_.unite(a, b);
+    sets_.unite(a, b);
+  }
+
+  std::vector<Pool> collect() {
+    std::map<std::uint32_t, std::size_t> cells;  // of each pool, by its summit
+    for (const std::uint32_t pool : pool_of_) ++cells[pools_.find(pool)];
+    // Without a gate the thickest is fed, and what joins it.
+    const std::uint32_t fed = gates_.empty() && !cells.empty() ? 1 : 0;
+    std::vector<Pool> pools;
+    for (const auto& [summit, count] : cells) {
+      pools.push_back(pool_at(summit, count, summit == fed));
+    }
+    std::sort(pools.begin(), pools.end(), [](const Pool& a, const Pool& b) {
+      return std::tuple(a.is_fed, -a.volume) < std::tuple(b.is_fed, -b.volume);
+    });
+    return pools;
+  }
+
+  Pool pool_at(std::uint32_t summit, std::size_t count, bool is_fed) {
+    Pool pool;
+    // What joins the gate has its own highest cell.
+    const std::uint32_t cell =
+        summit == 0 ? highest_of_gate() : order_[summit - 1];
+    pool.place = samples_.cells.middle_of(cells_[cell]);
+    pool.thickness = 2 * field_.radii[cell];
+    const double pitch = samples_.cells.pitch();
+    pool.volume = static_cast<double>(count) * pitch * pitch * pitch;
+    pool.is_fed = is_fed;
+    const auto neck = necks_.find(summit);
+    if (neck != necks_.end()) {
+      pool.neck = samples_.cells.middle_of(cells_[neck->second.cell]);
+      pool.neck_thickness = 2 * neck->second.radius;
+    }
+    return pool;
+  }
+
+  std::uint32_t highest_of_gate() {
+    const auto highest = std::find_if(
+        order_.begin(), order_.end(),
+        [&](std::uint32_t cell) { return pools_.find(pool_of_[cell]) == 0; });
+    return *highest;
+  }
+
+  const SolidSamples& samples_;
+  const ThicknessField& field_;
+  std::vector<Index> cells_;
+  std::vector<std::uint32_t> order_;    // cells, the highest first
+  std::vector<std::uint32_t> rank_of_;  // each cell in that
+  std::vector<std::pair<double, std::uint32_t>> gates_;
+  UnionFind sets_;   // of cells above the height that hang together
+  UnionFind pools_;  // of summits that feed each other
+  std::vector<std::uint32_t> pool_of_;   // each cell: a number in pools_
+  std::map<std::uint32_t, Neck> necks_;  // of summits
+};
+
+}  // namespace
+
+ThicknessField measure_thickness(const SolidSamples& samples,
+                                 const BallFinder& balls) {
+  const SolidCells& cells = samples.cells;
+  const std::vector<Index> list = list_cells(cells);
+  const double pitch = cells.pitch();
+
+  // A first look. A ray along y enters at most one step before its first cell.
+  ThicknessField field{std::vector<double>(list.size())};
+  std::vector<std::uint32_t> feet(list.size());
+  for_each_cell(list.size(), [&](std::uint32_t cell) {
+    const Vec3 middle = cells.middle_of(list[cell]);
+    for (double within = 2 * pitch; !(field.radii[cell] > 0); within *= 2) {
+      const auto foot = balls.nearest(middle, within, kFirstDoubt);
+      if (!foot) continue;
+      field.radii[cell] = std::max(foot->distance, kLeastRadius);
+      feet[cell] = foot->point;
+    }
+  });
+
+  // Where no cell beside is clearly farther from the surface, a summit or a
+  // neck may be: let the ball grow away from what is nearest.
+  const std::vector<double> first = field.radii;
+  for_each_cell(list.size(), [&](std::uint32_t cell) {
+    const Vec3 middle = cells.middle_of(list[cell]);
+    const auto inward_from = [&](std::uint32_t point) {
+      return (middle - samples.points[point].place) / first[cell];
+    };
+    const auto next =
+        cells.find(cells.index_at(middle + pitch * inward_from(feet[cell])));
+    if (next && first[*next] > first[cell] + kReach * pitch) return;
+    const auto foot = balls.nearest(middle, first[cell]);
+    if (foot) {
+      field.radii[cell] = foot->distance;
+      feet[cell] = foot->point;
+    }
+    const Vec3 touch = samples.points[feet[cell]].place;
+    field.radii[cell] = std::max(
+        field.radii[cell], balls
+                               .grow(touch, glm::normalize(middle - touch),
+                                     field.radii[cell] + kReach * pitch)
+                               .radius);
+  });
+  return field;
+}
+
+std::vector<Pool> find_pools(const SolidSamples& samples,
+                             const BallFinder& balls,
+                             const ThicknessField& field,
+                             const std::vector<Gate>& gates) {
+  Flood flood(samples, field);
+  for (const Gate& gate : gates) flood.add_gate(gate);
+  std::vector<Pool> pools = flood.run();
+  for (Pool& pool : pools) climb(balls, samples.pitch, pool);
+  return pools;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,39 @@
+#pragma once
+// Walls and gaps that are thin in space, however they lie.
+//
+// What is thin within a layer is found exactly, layer by layer
+// (slicer/check/thin). A plate that lies flat is not thin in any layer, and a
+// wall that leans is thinner than its layers show. Here a place is thin where
+// the largest ball that touches the surface is thinner than a width and touches
+// two sides that face each other, as disks do there (kFacingAngle): so an edge
+// of 90° is not thin, however small the balls in it.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.h"
+#include "slicer/thickness/ball_finder.h"
+#include "slicer/thickness/solid_samples.h"
+
+namespace lamina::slicer {
+
+struct ThinPlace {
+  bool is_gap = false;    // else a wall
+  double width = 0;       // of its thinnest ball [mm]
+  Vec3 place = Vec3(0);   // the middle of that
+  Vec3 across = Vec3(0);  // from side to side there; unit length
+  double area = 0;        // of one side [mm²]
+  Box3 box;               // of the middles of its balls
+  // The leaves of the two sides: indices into csg::Scene::instances.
+  std::array<std::uint32_t, 2> instances = {0, 0};
+};
+
+// Returns places whose balls hang together, the thinnest first.
+//
+// width  [mm]; should be two pitches of the samples or more: finer gaps may be
+//        missed
+std::vector<ThinPlace> find_thin_places(const SolidSamples& samples,
+                                        const BallFinder& balls, double width);
+
+}  // namespace lamina::slicer
