@@ -147,6 +147,24 @@ std::string short_name(std::string_view name) {
   return line.substr(0, end) + "…";
 }
 
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const char byte = i + j < bytes.size() ? bytes[i + j] : '\0';
+      bits = bits << 8 | static_cast<unsigned char>(byte);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += i + j > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * j) & 63];
+    }
+  }
+  return text;
+}
+
 std::string escape_html(std::string_view text) {
   std::string result;
   for (const char c : text) {

@@ -45,6 +45,9 @@ std::string short_name(std::string_view name);
 // As the text of an HTML or SVG element, or a quoted attribute.
 std::string escape_html(std::string_view text);
 
+// Bytes in letters (RFC 4648): as pages hold pictures and numbers.
+std::string base64(std::string_view bytes);
+
 std::string first_line(std::string_view text);
 
 // Blanks of ASCII: of plain text, not of Unicode.

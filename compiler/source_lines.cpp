@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -35,7 +36,24 @@ SourceLine line_of(const csg::Instance& instance) {
   return line;
 }
 
-// In the order of the design; kNoInstance comes last.
+// "ring.scad:12:3", from a folder; a file that is far from there by its name
+// alone.
+std::string place_from(const std::string& folder, const std::string& place) {
+  std::size_t end = place.size();
+  for (int i = 0; i < 2; ++i) {
+    const std::size_t digits = place.find_last_not_of("0123456789", end - 1);
+    if (digits == std::string::npos || place[digits] != ':') break;
+    end = digits;
+  }
+  std::string path = relative_path(place.substr(0, end), folder);
+  if (path.starts_with("../../")) {
+    path = std::filesystem::path(path).filename().string();
+  }
+  return path + place.substr(end);
+}
+
+}  // namespace
+
 SourceLines lines_of(const csg::Scene& scene, std::uint32_t a,
                      std::uint32_t b) {
   SourceLines lines;
@@ -48,8 +66,6 @@ SourceLines lines_of(const csg::Scene& scene, std::uint32_t a,
   }
   return lines;
 }
-
-}  // namespace
 
 FoundLines find_lines(const csg::Lowered& lowered,
                       const slicer::SliceReport& report) {
@@ -78,15 +94,26 @@ std::string line_text(const csg::Instance& instance) {
   return text_of(line_of(instance));
 }
 
+std::string text_of(const SourceLines& lines) {
+  std::string text;
+  for (const SourceLine& line : lines) {
+    if (!text.empty()) text += ", ";
+    text += text_of(line);
+  }
+  return text;
+}
+
+std::string text_from(const std::string& folder, SourceLines lines) {
+  for (SourceLine& line : lines) {
+    line.place = place_from(folder, line.place);
+    for (auto& call : line.calls) call.place = place_from(folder, call.place);
+  }
+  return text_of(lines);
+}
+
 std::vector<std::string> texts_of(std::span<const SourceLines> all) {
   std::vector<std::string> texts;
-  for (const SourceLines& lines : all) {
-    std::string& text = texts.emplace_back();
-    for (const SourceLine& line : lines) {
-      if (!text.empty()) text += ", ";
-      text += text_of(line);
-    }
-  }
+  for (const SourceLines& lines : all) texts.push_back(text_of(lines));
   return texts;
 }
 

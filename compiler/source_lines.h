@@ -4,6 +4,7 @@
 // A contour knows the leaf that it is of, and the scene knows where the design
 // calls that leaf's module, and from where that call came.
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,8 +37,19 @@ struct FoundLines {
 FoundLines find_lines(const csg::Lowered& lowered,
                       const slicer::SliceReport& report);
 
+// The lines of two leaves of a scene, in the order of the design, once if they
+// are equal. Of kNoInstance there is none.
+SourceLines lines_of(const csg::Scene& scene, std::uint32_t a, std::uint32_t b);
+
 // The line of a leaf: "lib.scad:8:5 from ring.scad:40:3".
 std::string line_text(const csg::Instance& instance);
+
+// All of them, separated by commas.
+std::string text_of(const SourceLines& lines);
+
+// As pages have it, which go to other machines: files are named from this
+// folder.
+std::string text_from(const std::string& folder, SourceLines lines);
 
 // A text for each: "lib.scad:8:5 from ring.scad:40:3, ring.scad:12:3".
 std::vector<std::string> texts_of(std::span<const SourceLines> all);

@@ -45,6 +45,7 @@ std::unique_ptr<Command> make_materials_command();
 std::unique_ptr<Command> make_orient_command();
 std::unique_ptr<Command> make_parts_command();
 std::unique_ptr<Command> make_plate_command();
+std::unique_ptr<Command> make_preflight_command();
 std::unique_ptr<Command> make_printers_command();
 std::unique_ptr<Command> make_supports_command();
 std::unique_ptr<Command> make_view_command();
@@ -65,6 +66,7 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"orient", make_orient_command},
     NamedCommand{"parts", make_parts_command},
     NamedCommand{"plate", make_plate_command},
+    NamedCommand{"preflight", make_preflight_command},
     NamedCommand{"printers", make_printers_command},
     NamedCommand{"supports", make_supports_command},
     NamedCommand{"view", make_view_command}};

@@ -44,6 +44,7 @@ Usage:
   lamina supports DESIGN -o NEW.scad      write it with supports, as a design
   lamina parts FILE                       list the parts of a CAD file or a 3MF
   lamina config [DESIGN]                  show your own defaults of options
+  lamina preflight DESIGN --metal METAL   say what a casting house asks
   lamina printers                         list the printers that lamina knows
   lamina materials                        list its resins and metals
 
@@ -62,8 +63,7 @@ Output:
                         .zip .nanodlp    images for printers with NanoDLP
                         .slices.3mf      a stack of slices
                         .layers.json     layers as JSON, in full precision
-                        .csg .echo .ast  CSG tree, echoes, syntax tree
-                        .param           the parameters, as JSON
+                        .csg .echo .ast .param  tree, echoes, syntax, parameters
   --printer P         the printer, by name or a part of it ('lamina printers'),
                       or by profile: fit, printing time, pixels
   --material M        the resin or wax, likewise ('lamina materials'): exposure,

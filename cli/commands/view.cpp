@@ -223,31 +223,13 @@ std::string estimate_of(const compiler::Compilation& compilation,
           found.volume, slicer::part_volume(found.volume, found.supports)));
 }
 
-// "ring.scad:12:3" as the page shows it, which goes to other machines: from the
-// design's folder, and a file that is far from there by its name alone.
-std::string place_from(const std::string& folder, const std::string& place) {
-  std::size_t end = place.size();
-  for (int i = 0; i < 2; ++i) {
-    const std::size_t digits = place.find_last_not_of("0123456789", end - 1);
-    if (digits == std::string::npos || place[digits] != ':') break;
-    end = digits;
+std::vector<std::string> texts_from(
+    const std::string& folder, const std::vector<compiler::SourceLines>& all) {
+  std::vector<std::string> texts;
+  for (const compiler::SourceLines& lines : all) {
+    texts.push_back(compiler::text_from(folder, lines));
   }
-  std::string path = relative_path(place.substr(0, end), folder);
-  if (path.starts_with("../../")) {
-    path = std::filesystem::path(path).filename().string();
-  }
-  return path + place.substr(end);
-}
-
-std::vector<std::string> texts_from(const std::string& folder,
-                                    std::vector<compiler::SourceLines> all) {
-  for (compiler::SourceLines& lines : all) {
-    for (compiler::SourceLine& line : lines) {
-      line.place = place_from(folder, line.place);
-      for (auto& call : line.calls) call.place = place_from(folder, call.place);
-    }
-  }
-  return compiler::texts_of(all);
+  return texts;
 }
 
 void write_page(const compiler::Compilation& compilation,

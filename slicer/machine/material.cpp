@@ -18,6 +18,7 @@ using nlohmann::json;
 constexpr double kGreatestDensity = 25;  // [g/cm³]; osmium has 22.6
 constexpr double kGreatestExposure = 1000;
 constexpr double kGreatestPrice = 1e9;
+constexpr double kGreatestCasting = 10;    // [mm]
 constexpr double kTroyOunce = 31.1034768;  // [g]
 
 KnownExposure read_exposure(const json& object) {
@@ -41,11 +42,22 @@ Price read_price(const json& object, const char* member,
           detail::read_line(object, "currency", ""), std::string(unit)};
 }
 
+CastingLimits read_casting(const json& object) {
+  detail::require_members(
+      object, {"wall_mm", "wire_mm", "gap_mm", "finishing_mm", "source"});
+  const auto read = [&](const char* member) {
+    object.at(member);  // which none can do without
+    return detail::read_number(object, member, 0, kGreatestCasting, 0);
+  };
+  return {read("wall_mm"), read("wire_mm"), read("gap_mm"),
+          read("finishing_mm"), detail::read_line(object, "source", "")};
+}
+
 Material read_material(const json& object) {
   detail::require_members(
       object, {"name", "title", "also", "source", "density", "exposures",
                "price_per_litre", "price_per_gram", "price_per_ounce",
-               "currency", "support_tip_mm"});
+               "currency", "support_tip_mm", "casting"});
   Material material;
   material.name = detail::read_line(object, "name");
   material.title = detail::read_line(object, "title", material.name);
@@ -57,6 +69,9 @@ Material read_material(const json& object) {
   material.support_tip =
       detail::read_number(object, "support_tip_mm", csg::kLeastSupportTip,
                           csg::kGreatestSupportTip, 0);
+  if (object.contains("casting")) {
+    material.casting = read_casting(object.at("casting"));
+  }
   if (object.contains("exposures")) {
     for (const json& exposure : object.at("exposures")) {
       material.exposures.push_back(read_exposure(exposure));

@@ -47,6 +47,15 @@ inline constexpr std::string_view kPriceUnits[] = {"g", "kg", "oz", "l"};
 // Reads "62.5 EUR/g"; no value where it is not one.
 std::optional<Price> parse_price(std::string_view text);
 
+// What a casting of a metal asks of a design [mm].
+struct CastingLimits {
+  double wall = 0;       // least thickness of a wall
+  double wire = 0;       // least diameter of a prong or a wire
+  double gap = 0;        // least width of an engraving or a gap
+  double finishing = 0;  // what filing and polishing take of a surface, at most
+  std::string source;
+};
+
 // Each text is one line.
 struct Material {
   std::string name;
@@ -57,6 +66,7 @@ struct Material {
   std::vector<KnownExposure> exposures;  // of a resin, if known
   std::optional<Price> price;
   double support_tip = 0;  // diameter of the tips that hold it [mm]; 0: usual
+  std::optional<CastingLimits> casting;  // of a metal, if known
 
   // [g]
   double weight(double volume_mm3) const { return density * volume_mm3 / 1000; }

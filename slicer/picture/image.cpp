@@ -14,11 +14,11 @@ namespace {
 constexpr int kCompressionLevel = 6;
 
 void append_bytes(png_structp png, png_bytep bytes, png_size_t count) {
-  auto& output = *static_cast<OutputFile*>(png_get_io_ptr(png));
-  output.write({reinterpret_cast<const char*>(bytes), count});
+  auto& file = *static_cast<std::string*>(png_get_io_ptr(png));
+  file.append(reinterpret_cast<const char*>(bytes), count);
 }
 
-void keep_bytes(png_structp /*png*/) {}  // the OutputFile flushes itself
+void keep_bytes(png_structp /*png*/) {}  // there is nothing to flush
 
 // libpng would use longjmp; an exception passes through its C frames as well,
 // since Debian builds it with unwind tables.
@@ -45,9 +45,10 @@ struct PngWriter {
 
 }  // namespace
 
-void write_png(const Image& image, OutputFile& output) {
+std::string png_of(const Image& image) {
+  std::string file;
   PngWriter writer;
-  png_set_write_fn(writer.png, &output, &append_bytes, &keep_bytes);
+  png_set_write_fn(writer.png, &file, &append_bytes, &keep_bytes);
   png_set_compression_level(writer.png, kCompressionLevel);
   png_set_IHDR(writer.png, writer.info, image.width, image.height, 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
@@ -64,6 +65,11 @@ void write_png(const Image& image, OutputFile& output) {
     png_write_row(writer.png, row.data());
   }
   png_write_end(writer.png, writer.info);
+  return file;
+}
+
+void write_png(const Image& image, OutputFile& output) {
+  output.write(png_of(image));
 }
 
 }  // namespace lamina::slicer

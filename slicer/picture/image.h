@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "base/file/output_file.h"
@@ -26,7 +27,10 @@ struct Image {
   }
 };
 
-// Appends the image as a PNG file, 8 bits a channel. Throws FileError.
+// The bytes of a PNG file of it, 8 bits a channel. Throws FileError.
+std::string png_of(const Image& image);
+
+// Appends the image as a PNG file. Throws FileError.
 void write_png(const Image& image, OutputFile& output);
 
 }  // namespace lamina::slicer

@@ -169,9 +169,4 @@ SolidSamples sample_solid(const csg::Scene& scene, double pitch) {
   return samples;
 }
 
-double pitch_for(const csg::Scene& scene, double cells) {
-  const Vec3 size = scene.box.size();
-  return std::cbrt(size.x * size.y * size.z / cells);
-}
-
 }  // namespace lamina::slicer

@@ -110,8 +110,4 @@ struct SolidSamples {
 // pitch  > 0 [mm]
 SolidSamples sample_solid(const csg::Scene& scene, double pitch);
 
-// The pitch for samples of a scene that about as many cells would fill, if it
-// filled its box [mm].
-double pitch_for(const csg::Scene& scene, double cells);
-
 }  // namespace lamina::slicer

@@ -18,8 +18,13 @@
 
 namespace lamina::slicer {
 
+// A wall or a gap between walls, a wire (which is thin either way, as a prong
+// is), or an edge: sides that meet, so that no thickness is its own.
+enum class ThinShape : std::uint8_t { kWall, kWire, kEdge };
+
 struct ThinPlace {
-  bool is_gap = false;    // else a wall
+  bool is_gap = false;  // of the void, not of the solid
+  ThinShape shape = ThinShape::kWall;
   double width = 0;       // of its thinnest ball [mm]
   Vec3 place = Vec3(0);   // the middle of that
   Vec3 across = Vec3(0);  // from side to side there; unit length

@@ -29,6 +29,9 @@ constexpr double kRounding = 1e-4;
 // (measure_thickness).
 constexpr double kDoubt = 0.02;
 
+// How near to the largest ball climbing in steps ends [pitches].
+constexpr double kSteps = 0.05;
+
 std::vector<Vec3> middles_of(const slicer::SolidCells& cells) {
   std::vector<Vec3> middles;
   cells.visit([&](std::uint32_t, const slicer::SolidCells::Index& index) {
@@ -63,7 +66,8 @@ double climb(const csg::Mesh& surface, Vec3 place, double step) {
 void judge(const std::string& text) {
   SCOPED_TRACE(text);
   const support::Design design = support::Design::from_text(text);
-  const double pitch = slicer::pitch_for(design.scene(), 60000);
+  const Vec3 size = design.scene().box.size();
+  const double pitch = std::cbrt(size.x * size.y * size.z / 60000);
   const auto samples = slicer::sample_solid(design.scene(), pitch);
   if (samples.points.empty()) return;
   const support::TemporaryFolder folder;
@@ -88,15 +92,17 @@ void judge(const std::string& text) {
               (distance + reach + cover) * (1 + kDoubt) + kRounding);
   }
 
-  // The thickest place of all: exact to second order.
+  // The thickest place of all. A ball may reach out of the solid where an edge
+  // points into it, by less than no point is near; it is not too small.
   const auto pools = slicer::find_pools(samples, balls, field, {});
   const auto thickest = std::max_element(
       pools.begin(), pools.end(),
       [](const auto& a, const auto& b) { return a.thickness < b.thickness; });
   const double greatest = climb(surface, thickest->place, pitch);
-  EXPECT_NEAR(thickest->thickness / 2, greatest, 0.2 * pitch);
+  EXPECT_LE(thickest->thickness / 2, greatest + cover);
+  EXPECT_GE(thickest->thickness / 2, greatest - kSteps * pitch);
   EXPECT_GE(greatest,
-            *std::max_element(distances.begin(), distances.end()) - 1e-3);
+            *std::max_element(distances.begin(), distances.end()) - cover);
 
   // Walls and gaps that are called thin are as thin as that.
   const double width = 6 * pitch;
@@ -121,9 +127,9 @@ INSTANTIATE_TEST_SUITE_P(All, Pieces,
 
 void judge_random(std::uint32_t first, std::uint32_t count) {
   for (std::uint32_t seed = first; seed < first + count; ++seed) {
-    const auto kind = seed % 2 == 0 ? support::RandomKind::kGeneric
-                                    : support::RandomKind::kTurnedGrid;
-    judge(support::random_design(kind, seed, 2 + seed % 6));
+    // Of designs whose faces coincide openscad makes surfaces with holes.
+    judge(support::random_design(support::RandomKind::kGeneric, seed,
+                                 2 + seed % 6));
     if (testing::Test::HasFatalFailure()) return;
   }
 }

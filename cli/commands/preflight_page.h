@@ -1,0 +1,32 @@
+#pragma once
+// The page of `lamina preflight`: one sheet of A4 for the casting house.
+
+#include <string>
+
+#include "compiler/tasks/preflight.h"
+
+namespace lamina::cli {
+
+// "A", "B", …, "Z", "AA": what pictures and lists call heavy places.
+std::string letter_of(std::size_t index);
+
+// "EU 54.5, US 7": what sizes an inner diameter [mm] is.
+std::string ring_size_text(double diameter);
+
+// What keeps a piece from being cast, in words: "2 walls are too thin"; empty
+// where nothing does.
+std::string fault_text(const compiler::Preflight& found);
+
+// "wall", "gap" or "wire".
+std::string kind_of(const compiler::TooThin& one);
+
+// The metals that weights are given in: that of the piece first.
+std::vector<slicer::Material> weighed_metals(const compiler::Preflight& found);
+
+// design  its path
+//
+// Throws FileError, with the package that is missing, where there is no OSMesa.
+std::string preflight_page(const compiler::Preflight& found,
+                           const std::string& design);
+
+}  // namespace lamina::cli

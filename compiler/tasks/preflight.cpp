@@ -1,0 +1,233 @@
+#include "compiler/tasks/preflight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "compiler/compile.h"
+#include "compiler/machine.h"
+#include "compiler/passes.h"
+#include "compiler/validate.h"
+#include "csg/boundary/move_scene.h"
+#include "plane/loop_area.h"
+#include "slicer/check/print/pole.h"
+#include "slicer/contour/layer_measures.h"
+#include "slicer/plan/orientation.h"
+#include "slicer/plate/footprint.h"
+#include "slicer/slice/slice.h"
+
+namespace lamina::compiler {
+namespace {
+
+// Thin places are looked for with rays whose pitch is this share of the least
+// thickness that is asked for.
+constexpr double kPitchShare = 0.4;
+// What is thinner by less than this share passes: facets of a round wire are
+// nearer to its middle than its nominal radius is.
+constexpr double kLetPass = 0.95;
+// Heavy places are looked for with so many cells: in a ring they are a tenth of
+// a millimetre wide.
+constexpr double kCells = 2e5;
+
+// Fingers fit into holes of these diameters [mm], from the smallest child's
+// ring to the largest size that is sold.
+constexpr double kLeastFinger = 11;
+constexpr double kGreatestFinger = 27;
+// Layers in which the hole is looked for, and how exactly their union is made
+// [mm].
+constexpr double kFingerLayer = 0.2;
+constexpr double kFingerTolerance = 0.001;
+
+// The metal that is named, or the printed material if that is a metal.
+slicer::Material metal_of(const Machine& machine) {
+  const std::optional<slicer::Material>& metal =
+      machine.metal ? machine.metal : machine.material;
+  if (!metal || !metal->is_metal()) {
+    throw RequestError(
+        "preflight needs a metal: --metal sterling-silver, or another of "
+        "'lamina materials'");
+  }
+  if (!metal->casting) {
+    throw RequestError(
+        fmt::format("the profile of {} says nothing of its castings "
+                    "(\"casting\"; see docs/formats.md)",
+                    metal->title));
+  }
+  return *metal;
+}
+
+double distance_to(const plane::Contours& contours, Vec2 place) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const auto loop = contours.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Vec2 from = loop[k];
+      const Vec2 along = loop[(k + 1) % loop.size()] - from;
+      const double share = std::clamp(
+          glm::dot(place - from, along) / glm::dot(along, along), 0.0, 1.0);
+      least = std::min(least, glm::length(from + share * along - place));
+    }
+  }
+  return least;
+}
+
+// The diameter of the largest circle in a hole: uphill from its pole, in steps
+// that shrink.
+double circle_in(std::span<const Vec2> hole) {
+  plane::Contours around;
+  around.add_loop(std::vector<Vec2>(hole.rbegin(), hole.rend()));
+  Vec2 middle = slicer::pole_of(around);
+  double radius = distance_to(around, middle);
+  for (double step = radius / 4; step > 1e-5;) {
+    bool has_grown = false;
+    const Vec2 here = middle;
+    for (int i = 0; i < 9; ++i) {
+      const Vec2 place = here + step * Vec2(i % 3 - 1, i / 3 - 1);
+      const double distance = distance_to(around, place);
+      if (distance <= radius) continue;
+      radius = distance;
+      middle = place;
+      has_grown = true;
+    }
+    if (!has_grown) step /= 2;
+  }
+  return 2 * radius;
+}
+
+// The hole that a finger fits through: the largest circle in the shadow's holes
+// along any axis.
+double find_finger(const csg::Scene& scene, slicer::Settings settings) {
+  settings.layer_thickness = std::max(settings.layer_thickness, kFingerLayer);
+  double widest = 0;
+  for (const char* axis : {"z", "x", "y"}) {
+    csg::Scene turned = scene;
+    csg::move_scene(turned, slicer::turn_to_axis(axis), Vec3(0));
+    const plane::Region shadow = slicer::footprint_of(
+        slicer::all_layers(turned, settings), kFingerTolerance);
+    for (const std::vector<Vec2>& loop : shadow.contours) {
+      if (signed_area(loop) >= 0) continue;
+      const double diameter = circle_in(loop);
+      if (diameter >= kLeastFinger && diameter <= kGreatestFinger) {
+        widest = std::max(widest, diameter);
+      }
+    }
+  }
+  return widest;
+}
+
+class Inspector {
+ public:
+  Inspector(const csg::Scene& scene, const PreflightOptions& options,
+            Preflight& found)
+      : scene_(scene), options_(options), found_(found) {}
+
+  void measure() {
+    find_thin(*found_.metal.casting);
+    find_unfed();
+  }
+
+ private:
+  void find_thin(const slicer::CastingLimits& limits) {
+    found_.pitch =
+        kPitchShare * std::min({limits.wall, limits.wire, limits.gap});
+    const slicer::SolidSamples samples =
+        slicer::sample_solid(scene_, found_.pitch);
+    const slicer::BallFinder balls(samples.points);
+    for (const slicer::SurfacePoint& point : samples.points) {
+      found_.area += point.area;
+    }
+    const double widest = std::max({limits.wall, limits.wire, limits.gap});
+    for (const auto& place : slicer::find_thin_places(samples, balls, widest)) {
+      const bool is_wire = place.shape == slicer::ThinShape::kWire;
+      const double least = place.is_gap ? limits.gap
+                           : is_wire    ? limits.wire
+                                        : limits.wall;
+      if (place.width >= kLetPass * least) continue;
+      if (place.area < least * least) continue;
+      if (place.shape == slicer::ThinShape::kEdge) {
+        if (!place.is_gap) ++found_.edges;
+        continue;
+      }
+      found_.too_thin.push_back(
+          {place, least,
+           lines_of(scene_, place.instances[0], place.instances[1])});
+    }
+  }
+
+  void find_unfed() {
+    const slicer::SolidSamples samples =
+        slicer::sample_solid(scene_, std::cbrt(found_.volume / kCells));
+    const slicer::BallFinder balls(samples.points);
+    const auto field = slicer::measure_thickness(samples, balls);
+    found_.gates = options_.gates;
+    for (const auto& pool :
+         slicer::find_pools(samples, balls, field, options_.gates)) {
+      found_.thickest = std::max(found_.thickest, pool.thickness);
+      if (!pool.is_fed) {
+        found_.unfed.push_back({pool, lines_at(samples, balls, pool)});
+      } else if (found_.gates.empty()) {
+        found_.gates.push_back({pool.place, pool.thickness});
+      }
+    }
+  }
+
+  // The line whose surface is nearest to the neck.
+  SourceLines lines_at(const slicer::SolidSamples& samples,
+                       const slicer::BallFinder& balls,
+                       const slicer::Pool& pool) const {
+    const Vec3 place = pool.neck_thickness > 0 ? pool.neck : pool.place;
+    const auto nearest =
+        balls.nearest(place, std::numeric_limits<double>::infinity());
+    if (!nearest) return {};
+    return lines_of(scene_, samples.points[nearest->point].instance,
+                    slicer::kNoInstance);
+  }
+
+  const csg::Scene& scene_;
+  const PreflightOptions& options_;
+  Preflight& found_;
+};
+
+}  // namespace
+
+double european_ring_size(double diameter) {
+  return std::numbers::pi * diameter;
+}
+
+double american_ring_size(double diameter) {
+  constexpr double kSizeZero = 11.63;  // [mm]
+  constexpr double kStep = 0.8128;     // 0.032 inches
+  return (diameter - kSizeZero) / kStep;
+}
+
+std::optional<Preflight> preflight(Compilation& c,
+                                   const PreflightOptions& options) {
+  c.report.machine = choose_machine(c.request.output, c.file_access());
+  Preflight found;
+  found.metal = metal_of(c.report.machine);
+  const auto lowered = make_geometry(c);
+  if (!lowered) return std::nullopt;
+  if (lowered->scene() == nullptr) {
+    throw GeometryError("The design is flat: a solid was expected");
+  }
+  const csg::Scene& scene = *lowered->scene();
+  const slicer::Settings settings = settings_of(c.request, c.report.machine);
+  found.layers = slicer::all_layers(scene, settings);
+  for (const slicer::Layer& layer : found.layers) {
+    const slicer::LayerMeasures measures = slicer::measure(layer.contours);
+    found.volume += measures.area * (layer.top - layer.bottom);
+    if (measures.box.is_empty()) continue;
+    found.box.add(Vec3(measures.box.low, layer.bottom));
+    found.box.add(Vec3(measures.box.high, layer.top));
+  }
+  found.parameters = list_parameters(c.design.program);
+  found.finger = find_finger(scene, settings);
+  Inspector(scene, options, found).measure();
+  return found;
+}
+
+}  // namespace lamina::compiler

@@ -1,0 +1,76 @@
+#pragma once
+// Preflight: what a casting house asks before it takes a piece.
+//
+// Is any wall, wire or gap thinner than the metal allows; what does the piece
+// weigh; does metal reach its heavy places; how large is it, and the finger
+// that it fits. All of it is measured of the solid that would be printed.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/compilation.h"
+#include "parser/customizer/customizer.h"
+#include "slicer/machine/material.h"
+#include "slicer/thickness/feeding.h"
+#include "slicer/thickness/thin_places.h"
+
+namespace lamina::compiler {
+
+// What is thinner than the metal allows.
+struct TooThin {
+  slicer::ThinPlace place;
+  double least = 0;  // that the metal asks for [mm]
+  SourceLines lines;
+};
+
+// A heavy place that metal does not reach.
+struct Unfed {
+  slicer::Pool pool;
+  SourceLines lines;  // that make the neck
+};
+
+struct PreflightOptions {
+  // Where metal enters; none: at the thickest place.
+  std::vector<slicer::Gate> gates;
+};
+
+struct Preflight {
+  slicer::Material metal;
+  std::vector<slicer::Layer> layers;  // of the piece
+  Box3 box;
+  double volume = 0;  // [mm³]
+  double area = 0;    // of the surface, up to some percent [mm²]
+  // Diameter of the largest circle in the finger's hole [mm]; 0: there is none
+  // of a finger's size.
+  double finger = 0;
+  // The thinnest first, by more than a twentieth. Places smaller than a square
+  // of the least are too small to matter: crevices where surfaces meet are
+  // such.
+  std::vector<TooThin> too_thin;
+  std::size_t edges = 0;  // that taper to nothing, and are not listed
+  double thickest = 0;    // diameter of the largest ball inside [mm]
+  // What is not fed, the largest first, and where metal enters.
+  std::vector<Unfed> unfed;
+  std::vector<slicer::Gate> gates;
+  std::vector<CustomizerEntry> parameters;
+  double pitch = 0;  // of the rays that measured thickness [mm]
+};
+
+// Weights are given in these too.
+inline constexpr const char* kUsualMetals[] = {
+    "sterling-silver", "gold-14k-yellow", "gold-18k-yellow", "platinum-950"};
+
+// Ring sizes of an inner diameter [mm]: the circumference [mm] in Europe (ISO
+// 8653), and that of the USA, of which each is 0.032 inches wider.
+double european_ring_size(double diameter);
+double american_ring_size(double diameter);
+
+// No value where the design failed, which is reported. Throws GeometryError
+// where it is nothing or flat, and RequestError where no metal is named that
+// says what it asks for.
+std::optional<Preflight> preflight(Compilation& compilation,
+                                   const PreflightOptions& options);
+
+}  // namespace lamina::compiler

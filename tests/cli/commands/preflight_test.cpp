@@ -1,0 +1,177 @@
+// lamina preflight, on pieces whose measures are known.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/lamina.h"
+#include "tests/support/text.h"
+
+namespace lamina::cli {
+namespace {
+
+using nlohmann::json;
+using support::has;
+using support::read_file;
+using support::TemporaryFolder;
+
+constexpr double kSilver = 10.36e-3;  // [g/mm³]
+
+struct Found {
+  json report;
+  int status = 0;
+};
+
+Found preflight(const std::string& design,
+                const std::vector<std::string>& options = {}) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", design);
+  std::vector<std::string> words = {"preflight",       "a.scad", "--metal",
+                                    "sterling-silver", "-o",     "o.json"};
+  words.insert(words.end(), options.begin(), options.end());
+  const auto result = run(folder, words);
+  EXPECT_EQ(result.errors, "");
+  return {json::parse(read_file(folder.file("o.json"))), result.status};
+}
+
+TEST(Preflight, PassesAThickPieceAndWeighsIt) {
+  const auto [report, status] = preflight("cube(10);");
+  EXPECT_EQ(status, 0);
+  EXPECT_NEAR(report["volume_mm3"].get<double>(), 1000, 1e-6);
+  EXPECT_NEAR(report["grams"].get<double>(), 1000 * kSilver, 1e-6);
+  EXPECT_NEAR(report["weights_g"]["platinum-950"].get<double>() / 1000, 21.4e-3,
+              1e-3);
+  EXPECT_NEAR(report["surface_mm2"].get<double>(), 600, 9);
+  EXPECT_NEAR(report["thickest_mm"].get<double>(), 10, 0.05);
+  EXPECT_TRUE(report["too_thin"].empty());
+  EXPECT_TRUE(report["unfed"].empty());
+  EXPECT_FALSE(report.contains("inner_diameter_mm"));
+}
+
+// A plate is found however it lies.
+TEST(Preflight, FindsAThinPlate) {
+  for (const char* turn : {"[0, 0, 0]", "[90, 0, 0]", "[35, 20, 0]"}) {
+    const auto [report, status] = preflight(
+        "rotate(" + std::string(turn) + ") cube([9, 7, 0.5], center = true);");
+    EXPECT_EQ(status, 1);
+    ASSERT_EQ(report["too_thin"].size(), 1U) << turn;
+    const json& wall = report["too_thin"][0];
+    EXPECT_EQ(wall["kind"], "wall");
+    EXPECT_NEAR(wall["thickness_mm"].get<double>(), 0.5, 1e-3);
+    EXPECT_EQ(wall["least_mm"], 0.8);
+    // Without the rim, where balls are smaller.
+    EXPECT_NEAR(wall["area_mm2"].get<double>(), 8.5 * 6.5, 4);
+    EXPECT_EQ(wall["lines"],
+              "a.scad:1:" + std::to_string(10 + std::string(turn).size()));
+  }
+}
+
+TEST(Preflight, AsksLessOfAWire) {
+  const auto [thin, status] =
+      preflight("rotate([40, 0, 0]) cylinder(d = 0.5, h = 9, $fn = 24);");
+  EXPECT_EQ(status, 1);
+  ASSERT_EQ(thin["too_thin"].size(), 1U);
+  EXPECT_EQ(thin["too_thin"][0]["kind"], "wire");
+  EXPECT_NEAR(thin["too_thin"][0]["thickness_mm"].get<double>(), 0.5, 0.02);
+  EXPECT_EQ(preflight("rotate([40, 0, 0]) cylinder(d = 0.6, h = 9, $fn = 24);")
+                .status,
+            0);
+}
+
+TEST(Preflight, FindsANarrowGap) {
+  const auto [report, status] = preflight(
+      "difference() { cube([8, 8, 3]); translate([4, -1, 1]) cube([0.2, 10, "
+      "3]); }");
+  EXPECT_EQ(status, 1);
+  ASSERT_EQ(report["too_thin"].size(), 1U);
+  EXPECT_EQ(report["too_thin"][0]["kind"], "gap");
+  EXPECT_NEAR(report["too_thin"][0]["thickness_mm"].get<double>(), 0.2, 1e-3);
+}
+
+// An edge of a wedge has no thickness of its own.
+TEST(Preflight, CountsEdgesButDoesNotListThem) {
+  const auto [report, status] =
+      preflight("linear_extrude(6) polygon([[0, 0], [12, 1.5], [12, -1.5]]);");
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(report["edges"], 1);
+}
+
+TEST(Preflight, KnowsTheSizeOfARing) {
+  for (const char* turn : {"[0, 0, 0]", "[90, 0, 0]", "[0, 90, 0]"}) {
+    const json report =
+        preflight("rotate(" + std::string(turn) +
+                  ") difference() { cylinder(d = 21, h = 4, $fn = 180, center "
+                  "= true); cylinder(d = 17.35, h = 9, $fn = 180, center = "
+                  "true); }")
+            .report;
+    const double inner = 17.35 * std::cos(std::numbers::pi / 180);
+    EXPECT_NEAR(report["inner_diameter_mm"].get<double>(), inner, 0.01);
+    EXPECT_NEAR(report["ring_size_eu"].get<double>(), std::numbers::pi * inner,
+                0.04);
+    EXPECT_NEAR(report["ring_size_us"].get<double>(), 7.03, 0.02);
+  }
+}
+
+constexpr const char* kDumbbell =
+    "for (x = [-8, 8]) translate([x, 0, 0]) sphere(3, $fn = 96);\nrotate([0, "
+    "90, 0]) cylinder(r = 1, h = 16, center = true, $fn = 96);";
+
+TEST(Preflight, NamesWhatMetalReachesThroughAThinnerPlace) {
+  const json one = preflight(kDumbbell, {"--gate", "-11,0,0"}).report;
+  ASSERT_EQ(one["unfed"].size(), 1U);
+  EXPECT_NEAR(one["unfed"][0]["place"][0].get<double>(), 8, 0.1);
+  EXPECT_NEAR(one["unfed"][0]["thickness_mm"].get<double>(), 6, 0.05);
+  EXPECT_NEAR(one["unfed"][0]["neck_mm"].get<double>(), 2, 0.1);
+  EXPECT_EQ(one["unfed"][0]["lines"], "a.scad:2:20");
+  const json both =
+      preflight(kDumbbell, {"--gate", "-11,0,0", "--gate", "11,0,0,6"}).report;
+  EXPECT_TRUE(both["unfed"].empty());
+}
+
+TEST(Preflight, WritesAPageThatNeedsNoOtherFile) {
+  const TemporaryFolder folder;
+  folder.write("<i>.scad",
+               "/* [Ring] */\n// finger\nsize = 54; // [40:70]\ncube([8, 8, "
+               "0.5]); translate([0, 0, 0]) cube(4);");
+  const auto result = run(folder, {"preflight", "<i>.scad", "--metal",
+                                   "sterling-silver", "-o", "o.html"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.output, "1 wall is too thin")) << result.output;
+  const std::string page = read_file(folder.file("o.html"));
+  EXPECT_TRUE(has(page, "&lt;i&gt;.scad"));
+  EXPECT_FALSE(has(page, "<i>"));
+  EXPECT_TRUE(has(page, "Not ready: 1 wall is too thin"));
+  EXPECT_TRUE(has(page, "<code>size</code></th><td>54</td><td>finger</td>"));
+  EXPECT_FALSE(has(page, "http"));
+  std::size_t pictures = 0;
+  for (std::size_t at = 0;
+       (at = page.find("data:image/png;base64,iVBOR", at)) != std::string::npos;
+       ++at) {
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 3U);
+}
+
+TEST(Preflight, NeedsAMetal) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(5);");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"preflight", "a.scad"},
+        {"preflight", "a.scad", "--material", "standard-resin"}}) {
+    const auto result = run(folder, words);
+    EXPECT_NE(result.status, 0);
+    EXPECT_TRUE(has(result.errors, "preflight needs a metal")) << result.errors;
+  }
+  folder.write("m.json", R"({"name": "tin", "density": 7.3})");
+  const auto result = run(folder, {"preflight", "a.scad", "--metal", "m.json"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(has(result.errors, "says nothing of its castings"))
+      << result.errors;
+}
+
+}  // namespace
+}  // namespace lamina::cli
