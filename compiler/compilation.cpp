@@ -5,14 +5,14 @@
 
 namespace lamina::compiler {
 
-Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
+Compilation::Compilation(Request its_request, TemporaryFiles& files,
                          Diagnostics::Observer observer)
-    : request(its_request),
+    : request(std::move(its_request)),
       temporary_files(files),
       diagnostics(std::move(observer)),
       loader(sources, diagnostics, library_folders(files.file_access()),
-             its_request.design.definitions, files.file_access()),
-      readers(its_request.design, files.file_access(), diagnostics) {
+             request.design.definitions, files.file_access()),
+      readers(request.design, files.file_access(), diagnostics) {
   diagnostics.set_hard_warnings(request.design.has_hard_warnings);
   if (request.design.language == "2026") loader.set_language(Language::k2026);
 }

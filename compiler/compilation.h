@@ -23,6 +23,12 @@
 
 namespace lamina::compiler {
 
+// The direction of building that a search found.
+struct FoundDirection {
+  Vec3 up;                 // as GeometryRequest::up
+  std::size_t judged = 0;  // among so many
+};
+
 struct Report {
   // Processor seconds of the passes; those of slicing are in `slice`.
   double load_seconds = 0;
@@ -34,6 +40,7 @@ struct Report {
   // No value where nothing is promised: the paper's contours.
   std::optional<slicer::Deviation> deviation;
   Machine machine;
+  std::optional<FoundDirection> direction;  // if one was searched for
   // The supports that were added, if any were asked for.
   std::optional<slicer::SupportPlan> supports;
   std::optional<slicer::HollowReport> hollow;  // if it was asked for
@@ -45,10 +52,9 @@ struct Report {
 };
 
 struct Compilation {
-  // request   outlives the compilation, as do `files`
-  // files     say what may be read and written
+  // files     say what may be read and written; they outlive the compilation
   // observer  gets every message as it comes up
-  Compilation(const Request& its_request, TemporaryFiles& files,
+  Compilation(Request its_request, TemporaryFiles& files,
               Diagnostics::Observer observer = nullptr);
   Compilation(const Compilation&) = delete;
   Compilation& operator=(const Compilation&) = delete;
@@ -65,7 +71,8 @@ struct Compilation {
   // The number of messages of a severity so far.
   std::size_t count(Severity severity) const;
 
-  const Request& request;
+  // As it was asked for; a direction to be found becomes the one that is found.
+  Request request;
   TemporaryFiles& temporary_files;
   // Stack that evaluation may use below the caller's frame.
   std::size_t evaluation_stack = csg::EvaluateOptions().stack_bytes;

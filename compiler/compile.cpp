@@ -15,6 +15,7 @@
 #include "base/thread_clock.h"
 #include "compiler/layer_output.h"
 #include "compiler/make_rule.h"
+#include "compiler/orient.h"
 #include "compiler/stage_text.h"
 #include "compiler/supports.h"
 #include "csg/lower/emptiness.h"
@@ -54,6 +55,24 @@ auto explained(const Compilation& c, const Work& work) {
   }
 }
 
+// Whether it matters to the output how the design lies.
+bool is_turned(const Request& request) {
+  return slicer::is_of_layers(request.output.format) || request.output.dump ||
+         request.supports;
+}
+
+// Slices the design as it would lie in many directions, if one is to be found.
+void choose_direction(Compilation& c) {
+  if (c.request.geometry.searched_direction == 0 || !is_turned(c.request)) {
+    return;
+  }
+  c.on_pass("finding how it should lie");
+  c.report.direction =
+      find_direction(c.request, c.evaluation_stack, c.temporary_files);
+  c.request.geometry.searched_direction = 0;
+  if (c.report.direction) c.request.geometry.up = c.report.direction->up;
+}
+
 // Slices the design without supports to see where they must stand.
 void add_supports(Compilation& c) {
   if (!c.request.supports) return;
@@ -65,6 +84,7 @@ void add_supports(Compilation& c) {
 }
 
 void load_design(Compilation& c) {
+  choose_direction(c);
   add_supports(c);
   c.on_pass("reading");
   c.design = timed(c.report.load_seconds, [&] {

@@ -57,6 +57,9 @@ struct GeometryRequest {
   std::string axis = "z";  // of slicer::kAxes, or kAutomaticAxis
   // A direction of the design that points up, instead of an axis.
   std::optional<Vec3> up;
+  // That direction is the N-th of those that a search lists, from 1; 0: none is
+  // searched for.
+  unsigned searched_direction = 0;
   double turn = 0;  // about the axis, anticlockwise from above [degrees]
   bool is_placed_on_bed = false;
   double scale = 1;

@@ -94,8 +94,11 @@ void require_heights(const std::vector<double>& heights) {
 
 void refuse_turn(const Request& request) {
   const GeometryRequest& geometry = request.geometry;
-  refuse_if(geometry.up && geometry.axis != "z",
+  const bool is_searched = geometry.searched_direction > 0;
+  refuse_if((geometry.up || is_searched) && geometry.axis != "z",
             "--orient says what points up, not with --axis");
+  refuse_if(is_searched && !request.job.heights.empty(),
+            "--orient best needs layers, not --heights");
   refuse_if(geometry.turn != 0 && geometry.axis == kAutomaticAxis,
             "--axis auto turns the part itself, if it must; not with --turn");
   refuse_if(!request.supports && (!request.support_lines.only.empty() ||

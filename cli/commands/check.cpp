@@ -120,6 +120,9 @@ class CheckCommand : public Command {
       print_out(json_text(json));
     } else {
       print_out(text_of(*inspection, machine, request, !is_file));
+      if (compilation.report.direction) {
+        print_out(direction_line(compilation.report) + "\n");
+      }
     }
     const bool fits =
         !machine.printer || slicer::fits(*machine.printer, found.box.size());

@@ -17,9 +17,9 @@
 #include "cli/process/streams.h"
 #include "cli/report/comparison_text.h"
 #include "cli/report/session.h"
-#include "compiler/comparison.h"
 #include "compiler/look_at.h"
 #include "compiler/stage_text.h"
+#include "compiler/tasks/comparison.h"
 #include "slicer/picture/difference_picture.h"
 
 namespace lamina::cli {

@@ -1,6 +1,6 @@
 // lamina orient: how a part should lie.
 
-#include "compiler/tasks/orient.h"
+#include "compiler/orient.h"
 
 #include <cmath>
 #include <memory>
@@ -20,6 +20,7 @@
 #include "cli/report/session.h"
 #include "compiler/stage_text.h"
 #include "compiler/validate.h"
+#include "slicer/picture/front_picture.h"
 
 namespace lamina::cli {
 namespace {
@@ -66,7 +67,9 @@ class OrientCommand : public Command {
               "orient writes .html or .json; '{}' is neither", output_);
     refuse_if(request_.job.cusp > 0 || !request_.job.heights.empty(),
               "orient compares layers of one thickness");
-    refuse_if(request_.geometry.up || request_.geometry.axis != "z",
+    refuse_if(request_.geometry.up ||
+                  request_.geometry.searched_direction > 0 ||
+                  request_.geometry.axis != "z",
               "orient finds what --axis or --orient would say");
     // Its sizes; the design itself is judged without supports.
     sizes_ = request_.supports;
@@ -81,7 +84,12 @@ class OrientCommand : public Command {
       compiler::OrientOptions options;
       options.sizes = sizes_;
       if (directions_) options.directions = *directions_;
-      options.on_progress = session.compilation.on_progress;
+      options.on_progress = [&](std::uint64_t done, std::uint64_t all) {
+        ProgressLine& line = session.terminal.progress();
+        if (done == 1) line.begin(all, "directions");
+        line.show(done);
+      };
+      if (output_.ends_with(".html")) options.draw = slicer::front_svg;
       const auto found =
           compiler::find_orientations(session.compilation, options);
       if (!found) return kFault;
@@ -98,63 +106,79 @@ class OrientCommand : public Command {
   }
 
  private:
-  // "-0.25,0.5,0.829": as exact as a tenth of a degree.
-  static std::string words_of(Vec3 up) {
-    std::string words;
-    for (int i = 0; i < 3; ++i) {
-      const double value = std::round(up[i] * 1000) / 1000 + 0.0;
-      words += fmt::format("{}{:g}", i > 0 ? "," : "", value);
-    }
-    return words;
+  // What supports would be is not known where none were planned.
+  static std::string row_of(const compiler::JudgedDirection& one,
+                            std::string_view last) {
+    const auto planned = [&](auto figure) {
+      return one.is_planned ? fmt::format("{:.4g}", static_cast<double>(figure))
+                            : "-";
+    };
+    return fmt::format(
+        "{:>7.2f} {:>7} {:>8} {:>10} {:>10} {:>8} {:>6.4g}  {}\n", one.height,
+        one.islands, planned(one.contacts), planned(one.contact_area),
+        planned(one.support_volume), planned(one.unheld), one.cups, last);
   }
 
-  static std::string row_of(const compiler::JudgedDirection& one,
-                            std::string_view first) {
+  std::string judged_line(const compiler::OrientResult& found) const {
+    if (!found.is_stopped) {
+      return fmt::format(
+          "{} judged; supports planned for the best; each below is better than "
+          "all others in something\n",
+          counted(found.judged, "direction"));
+    }
+    const compiler::OrientOptions usual;
     return fmt::format(
-        "{:>7} {:>7} {:>8} {:>10.4g} {:>10.4g} {:>8} {:>6.4g}  {}\n",
-        fmt::format("{:.2f}", one.height), one.islands, one.contacts,
-        one.contact_area, one.support_volume, one.unheld, one.cups, first);
+        "interrupted: {} of {} directions judged, supports planned for {}; "
+        "each below is better than all others in something\n",
+        found.judged, directions_.value_or(usual.directions), found.planned);
   }
 
   std::string table_of(const compiler::OrientResult& found) const {
-    std::string text = fmt::format(
-        "{} judged; supports planned for the best; each below is better than "
-        "all others in something\n"
+    std::string text =
+        judged_line(found) +
         " height islands contacts  touch mm² resin mm³   unheld   cups  "
         "--orient\n"
-        "     mm                                                    mm³\n",
-        counted(found.judged, "direction"));
-    for (const auto& one : found.listed) text += row_of(one, words_of(one.up));
-    return text + row_of(found.drawn, "0,0,1 (as drawn)");
+        "     mm                                                    mm³\n";
+    for (const auto& one : found.listed) {
+      text += row_of(one, compiler::direction_text(one.up));
+    }
+    if (found.drawn) text += row_of(*found.drawn, "0,0,1 (as drawn)");
+    return text;
   }
 
   static json json_row(const compiler::JudgedDirection& one) {
-    return {{"orient", {one.up.x, one.up.y, one.up.z}},
-            {"height_mm", one.height},
-            {"layers", one.layers},
-            {"islands", one.islands},
-            {"overhang_mm2", one.overhang},
-            {"cups_mm3", one.cups},
-            {"contacts", one.contacts},
-            {"contact_area_mm2", one.contact_area},
-            {"support_volume_mm3", one.support_volume},
-            {"unheld", one.unheld},
-            {"seconds", one.seconds}};
+    json row = {{"orient", {one.up.x, one.up.y, one.up.z}},
+                {"height_mm", one.height},
+                {"islands", one.islands},
+                {"overhang_mm2", one.overhang},
+                {"cups_mm3", one.cups}};
+    if (!one.is_planned) return row;
+    row.update({{"layers", one.layers},
+                {"contacts", one.contacts},
+                {"contact_area_mm2", one.contact_area},
+                {"support_volume_mm3", one.support_volume},
+                {"unheld", one.unheld},
+                {"seconds", one.seconds}});
+    return row;
   }
 
   static std::string json_of(const compiler::OrientResult& found) {
     json rows = json::array();
     for (const auto& one : found.listed) rows.push_back(json_row(one));
     return json_text({{"judged", found.judged},
-                      {"drawn", json_row(found.drawn)},
+                      {"planned", found.planned},
+                      {"interrupted", found.is_stopped},
+                      {"drawn", found.drawn ? json_row(*found.drawn) : json()},
                       {"listed", std::move(rows)}});
   }
 
   static std::string card_of(const compiler::JudgedDirection& one,
                              std::string_view title) {
-    std::string facts = fmt::format(
-        "{:.2f} mm high, {} contacts ({:.3g} mm²), {:.4g} mm³ of supports",
-        one.height, one.contacts, one.contact_area, one.support_volume);
+    std::string facts = fmt::format("{:.2f} mm high", one.height);
+    if (one.is_planned) {
+      facts += fmt::format(", {} contacts ({:.3g} mm²), {:.4g} mm³ of supports",
+                           one.contacts, one.contact_area, one.support_volume);
+    }
     if (one.cups > 0) facts += fmt::format(", cups of {:.3g} mm³", one.cups);
     if (one.unheld > 0) facts += fmt::format(", {} unheld", one.unheld);
     if (one.seconds > 0) {
@@ -163,10 +187,10 @@ class OrientCommand : public Command {
     return fmt::format(
         "<figure>{}<figcaption><code>--orient {}</code>{}<br>{}</figcaption>"
         "</figure>\n",
-        one.picture, words_of(one.up), title, facts);
+        one.picture, compiler::direction_text(one.up), title, facts);
   }
 
-  static std::string page_of(const compiler::OrientResult& found) {
+  std::string page_of(const compiler::OrientResult& found) const {
     std::string page =
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
         "<meta name=\"viewport\" content=\"width=device-width\">"
@@ -176,8 +200,10 @@ class OrientCommand : public Command {
         "border-radius:8px;padding:1em}svg{width:100%;height:14em}figcaption"
         "{margin-top:.5em}</style></head><body><main>\n";
     for (const auto& one : found.listed) page += card_of(one, "");
-    return page + card_of(found.drawn, " (as drawn)") +
-           "</main></body></html>\n";
+    if (found.drawn) page += card_of(*found.drawn, " (as drawn)");
+    page += "</main>";
+    if (found.is_stopped) page += "<p>" + judged_line(found) + "</p>";
+    return page + "</body></html>\n";
   }
 
   compiler::Request request_;

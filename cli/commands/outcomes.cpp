@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "cli/report/finding_table.h"
 #include "cli/report/run_report.h"
+#include "compiler/orient.h"
 
 namespace lamina::cli {
 namespace {
@@ -26,6 +27,10 @@ std::string notes_of(const compiler::Report& report) {
     text += fmt::format("{}{:.4g} mm³ of supports, {}",
                         text.empty() ? "" : "; ", supports->volume,
                         counted(supports->contacts.size(), "contact"));
+  }
+  if (report.direction) {
+    text += fmt::format("{}--orient {}", text.empty() ? "" : "; ",
+                        compiler::direction_text(report.direction->up));
   }
   return text;
 }
@@ -48,11 +53,19 @@ std::string row_of(const Outcome& outcome) {
 constexpr std::string_view kCsvHeader =
     "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,price,"
     "metal_grams,metal_price,print_seconds,seconds,warnings,findings,error,"
-    "supports_mm3,contacts,contact_mm2\r\n";
+    "supports_mm3,contacts,contact_mm2,orient\r\n";
 
 // Empty where it is not known.
 std::string figure(double value) {
   return value > 0 ? fmt::format("{}", value) : "";
+}
+
+// Where it was searched for: what repeats it without a search.
+std::string direction_of(const Outcome& outcome) {
+  const auto& direction = outcome.report.direction;
+  return outcome.is_done() && direction
+             ? fmt::format("\"{}\"", compiler::direction_text(direction->up))
+             : "";
 }
 
 // Volume, contacts, and their area.
@@ -82,9 +95,10 @@ std::string csv_of(const Piece& piece, const Outcome& outcome) {
         csv_words(report.slice.print ? finding_counts(*report.slice.print)
                                      : ""));
   }
-  return fmt::format("{},{},{},{},{},{}\r\n", line, csv_words(piece.name),
+  return fmt::format("{},{},{},{},{},{},{}\r\n", line, csv_words(piece.name),
                      csv_words(piece.request.output.path), figures,
-                     csv_words(outcome.error), supports_of(outcome));
+                     csv_words(outcome.error), supports_of(outcome),
+                     direction_of(outcome));
 }
 
 std::string json_of(const Piece& piece, const Outcome& outcome) {

@@ -283,6 +283,9 @@ class PlateCommand : public Command {
     if (piece.request.job.min_feature > 0) {
       session.terminal.say(feature_lines(session.compilation));
     }
+    if (session.compilation.report.direction) {
+      session.terminal.say(direction_line(session.compilation.report));
+    }
     const auto& print = slices_.back().print;
     if (print && !print->counts(slicer::kAllFindings).empty()) {
       session.terminal.say(fmt::format("print: {}", finding_counts(*print)));

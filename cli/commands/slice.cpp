@@ -128,7 +128,10 @@ More of the design:
                       change nothing: openscad's scripts give them
 
 More of slicing:
-  --orient X,Y,Z      what of the design points up, as 'lamina orient' finds it
+  --orient X,Y,Z|best|N
+                      what of the design points up, as 'lamina orient' finds
+                      it; best or N searches in the run and takes the first or
+                      N-th of that list
   --turn DEG          turn the design about the axis, anticlockwise seen from
                       above [0]
   --hollow-closing MM leave places of cavities solid that a ball of this radius

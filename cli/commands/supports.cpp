@@ -15,6 +15,7 @@
 #include "cli/options/design_options.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/finding_table.h"
+#include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/look_at.h"
 #include "compiler/stage_text.h"
@@ -83,13 +84,21 @@ class SupportsCommand : public Command {
       const auto whole = compiler::look_at(session.compilation, {});
       const auto& plan = session.compilation.report.supports;
       if (!whole || !plan) return kFault;
-      compiler::write_file(output_, text_of(*plan), context.temporary_files);
+      // Where a direction was searched for, it has been found.
+      const compiler::GeometryRequest& geometry =
+          session.compilation.request.geometry;
+      compiler::write_file(output_, text_of(*plan, geometry),
+                           context.temporary_files);
+      if (session.compilation.report.direction) {
+        session.terminal.say(direction_line(session.compilation.report));
+      }
       return tell(session.terminal, *plan, *whole);
     });
   }
 
  private:
-  std::string text_of(const slicer::SupportPlan& plan) const {
+  std::string text_of(const slicer::SupportPlan& plan,
+                      const compiler::GeometryRequest& geometry) const {
     const std::string part =
         relative_path(request_.design.path, folder_of(output_));
     // A design cannot take anything from what it includes.
@@ -104,7 +113,7 @@ class SupportsCommand : public Command {
                 ? compiler::import_of(part, request_.design.part) + "\n"
                 : fmt::format("include <{}>\n{}", part,
                               request_.design.definitions)) +
-           compiler::support_lines(plan, request_.geometry);
+           compiler::support_lines(plan, geometry);
   }
 
   int tell(Terminal& terminal, const slicer::SupportPlan& plan,

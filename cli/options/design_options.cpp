@@ -31,6 +31,9 @@ std::vector<std::string> texts(const Words& words) {
 constexpr double kLeastDrain = 0.3;
 constexpr double kGreatestDrain = 20;
 
+// No list of directions is as long.
+constexpr double kLastDirection = 10000;
+
 // As slicer::FindingKind.
 constexpr std::array<std::string_view, slicer::kFindingKinds> kFindingWords = {
     "islands", "loose-parts", "overhangs", "suction-cups", "resin-traps"};
@@ -82,18 +85,32 @@ slicer::SupportSizes sizes_of(const std::string& text) {
   return sizes;
 }
 
-// text  "0,1,1"
-Vec3 direction_of(const std::string& text) {
+// text  "0,1,1", "best", "2"
+void take_direction(const std::string& text,
+                    compiler::GeometryRequest& geometry) {
+  geometry.up.reset();
+  geometry.searched_direction = text == "best" ? 1 : 0;
+  if (text == "best") return;
+  const auto number = parse_number(text);
+  if (number && *number >= 1 && *number <= kLastDirection &&
+      *number == std::floor(*number)) {
+    geometry.searched_direction = static_cast<unsigned>(*number);
+    return;
+  }
   std::vector<double> numbers;
-  for (const std::string& word : words_of(text)) {
+  const std::vector<std::string> words = words_of(text);
+  for (const std::string& word : words) {
     const auto value = parse_number(word);
     if (value) numbers.push_back(*value);
   }
   require(
-      numbers.size() == 3 && std::hypot(numbers[0], numbers[1], numbers[2]) > 0,
-      "--orient", "expected the direction that points up, X,Y,Z, not '{}'",
+      words.size() == 3 && numbers.size() == 3 &&
+          std::hypot(numbers[0], numbers[1], numbers[2]) > 0,
+      "--orient",
+      "expected the direction that points up, X,Y,Z, or best, or a number from "
+      "1 of the list of 'lamina orient', not '{}'",
       text);
-  return {numbers[0], numbers[1], numbers[2]};
+  geometry.up = Vec3(numbers[0], numbers[1], numbers[2]);
 }
 
 slicer::HollowSizes& hollow_of(compiler::Request& request) {
@@ -228,7 +245,7 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
       "--axis", texts(compiler::kAxisWords),
       [&](const std::string& axis) { request.geometry.axis = axis; });
   options.text("--orient", "direction", [&request](const std::string& text) {
-    request.geometry.up = direction_of(text);
+    take_direction(text, request.geometry);
   });
   options.number("--turn", "degrees", request.geometry.turn);
   options.flag("--supports", [&request](const std::string& size) {

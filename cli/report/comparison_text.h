@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "compiler/comparison.h"
+#include "compiler/tasks/comparison.h"
 
 namespace lamina::cli {
 

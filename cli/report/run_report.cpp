@@ -19,6 +19,7 @@
 #include "cli/report/feature_table.h"
 #include "cli/report/finding_table.h"
 #include "compiler/compile.h"
+#include "compiler/orient.h"
 
 namespace lamina::cli {
 namespace {
@@ -198,6 +199,11 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
     json["print"] = print_json(*report.slice.print, report.lines.findings);
   }
   json.update(machine_json(report.machine, report.estimate));
+  if (const auto& direction = report.direction) {
+    json["orient"] = {
+        {"option", "--orient " + compiler::direction_text(direction->up)},
+        {"judged", direction->judged}};
+  }
   if (report.hollow) json["hollow"] = hollow_json(*report.hollow);
   if (const auto& measures = report.slice.supports) {
     json["supports"] = supports_json(*measures, report.lines.contacts);
@@ -275,6 +281,11 @@ std::string hollow_line(const compiler::Report& report) {
   return line;
 }
 
+// "\n" and the line of a search for a direction, if there was one.
+std::string oriented_line(const compiler::Report& report) {
+  return report.direction ? "\n" + direction_line(report) : "";
+}
+
 std::string machine_line(const compiler::Report& report) {
   const std::string text =
       slicer::estimate_text(report.machine, report.estimate);
@@ -289,7 +300,7 @@ std::string summary_line(const compiler::Compilation& compilation,
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
-      "{}: {}, {}, {}, {}{}{}{}{}{}{}\n"
+      "{}: {}, {}, {}, {}{}{}{}{}{}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, graph {:.3f}, output {:.3f}), {} of "
       "memory, {:.3f} s by the clock",
@@ -299,12 +310,12 @@ std::string summary_line(const compiler::Compilation& compilation,
       memory_text(report.output_bytes),
       slice.box.is_empty() ? "" : ", " + size_text(slice.box.size()),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
-      machine_line(report), hollow_line(report), supports_line(report),
-      print_line(report, check), process_seconds() - earlier_seconds,
-      report.load_seconds, report.evaluate_seconds, report.lower_seconds,
-      section_seconds(report), slice.sweep_seconds, slice.graph_seconds,
-      slice.output_seconds, memory_text(peak_memory_bytes()),
-      report.wall_seconds);
+      machine_line(report), oriented_line(report), hollow_line(report),
+      supports_line(report), print_line(report, check),
+      process_seconds() - earlier_seconds, report.load_seconds,
+      report.evaluate_seconds, report.lower_seconds, section_seconds(report),
+      slice.sweep_seconds, slice.graph_seconds, slice.output_seconds,
+      memory_text(peak_memory_bytes()), report.wall_seconds);
 }
 
 }  // namespace
@@ -321,6 +332,12 @@ std::uint64_t peak_memory_bytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::string direction_line(const compiler::Report& report) {
+  return fmt::format("direction: --orient {}, found among {}",
+                     compiler::direction_text(report.direction->up),
+                     counted(report.direction->judged, "direction"));
 }
 
 Json report_json(const compiler::Compilation& compilation) {

@@ -50,6 +50,10 @@ nlohmann::ordered_json machine_json(const compiler::Machine& machine,
 // The table of thin features that were found, without the last '\n'.
 std::string feature_lines(const compiler::Compilation& compilation);
 
+// "direction: --orient 0,0.6,0.8, found among 300 directions". The report has a
+// direction.
+std::string direction_line(const compiler::Report& report);
+
 // What a run says at its end.
 struct Closing {
   std::string report;  // path of --report; empty: none

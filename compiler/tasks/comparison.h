@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "compiler/compared.h"
+#include "compiler/tasks/compared.h"
 #include "slicer/check/compare/compare.h"
 
 namespace lamina::compiler {

@@ -1,22 +1,24 @@
-#include "compiler/tasks/orient.h"
+#include "compiler/orient.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <mutex>
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "compiler/compile.h"
 #include "compiler/machine.h"
 #include "compiler/passes.h"
 #include "compiler/supports.h"
 #include "csg/boundary/move_scene.h"
-#include "slicer/picture/front_picture.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/slice/slice.h"
 #include "slicer/supports/support_plan.h"
@@ -31,6 +33,12 @@ constexpr double kCoarseLayer = 0.1;
 constexpr double kCoarseShare = 0.55;
 // Around each of the best of these there are so many finer ones.
 constexpr std::size_t kNeighbours = 8;
+
+// As its text has it.
+Vec3 in_thousandths(Vec3 up) {
+  for (int i = 0; i < 3; ++i) up[i] = std::round(up[i] * 1000) / 1000 + 0.0;
+  return up;
+}
 
 std::vector<Vec3> spread_directions(std::size_t count) {
   std::vector<Vec3> directions;
@@ -125,18 +133,75 @@ class Search {
       : scene_(scene),
         request_(request),
         machine_(machine),
-        settings_(settings_of(request, machine)),
+        settings_(settings_for_search(request, machine)),
         sizes_(support_sizes(
             options.sizes.value_or(slicer::SupportSizes{.tip = 0}), machine)),
         options_(options),
-        steps_(options.directions + options.planned) {
-    settings_.threads = 1;
-  }
+        steps_(options.directions + options.planned) {}
 
   OrientResult find() {
+    OrientResult result;
+    const std::vector<JudgedDirection> judged = find_quickly();
+    result.judged = judged.size();
+    result.is_stopped = is_stopped_;
+    if (judged.empty()) return result;
+    std::vector<JudgedDirection> best = best_of(judged);
+    for_each_index(best.size(), [&](std::size_t i) {
+      if (stops()) return;
+      plan_supports(best[i]);
+      step_on();
+    });
+    result.is_stopped = is_stopped_;
+    if (is_drawn(best.front())) result.drawn = best.front();
+    std::vector<JudgedDirection> planned;
+    std::ranges::copy_if(best, std::back_inserter(planned),
+                         &JudgedDirection::is_planned);
+    result.planned = planned.size();
+    if (!planned.empty()) {
+      result.listed = front_of(planned, &print_figures);
+    } else {
+      result.listed = front_of(judged, &quick_figures);
+    }
+    return result;
+  }
+
+ private:
+  // Each direction is sliced by one thread, as a whole print in layers of one
+  // thickness.
+  static slicer::Settings settings_for_search(const Request& request,
+                                              const Machine& machine) {
+    slicer::Settings settings = settings_of(request, machine);
+    settings.threads = 1;
+    settings.cusp = 0;
+    settings.greatest_thickness = 0;
+    settings.written = {};
+    settings.min_feature = 0;
+    settings.finds_makers = false;
+    settings.contour = slicer::ContourMode::kFaithful;
+    return settings;
+  }
+
+  // The first axis is z.
+  static bool is_drawn(const JudgedDirection& one) {
+    return one.up == Vec3(0, 0, 1);
+  }
+
+  template <typename Figures>
+  static std::vector<JudgedDirection> front_of(
+      const std::vector<JudgedDirection>& judged, const Figures& figures) {
+    std::vector<JudgedDirection> front;
+    for (const std::size_t i : in_order(judged, figures, true)) {
+      front.push_back(judged[i]);
+    }
+    return front;
+  }
+
+  // Directions without supports; as drawn first.
+  std::vector<JudgedDirection> find_quickly() {
     const auto coarse = static_cast<std::size_t>(
         kCoarseShare * static_cast<double>(options_.directions));
     std::vector<JudgedDirection> judged = judge_all(spread_directions(coarse));
+    if (is_stopped_) return judged;
     const double step =
         std::sqrt(4 * std::numbers::pi / static_cast<double>(judged.size()));
     std::vector<Vec3> finer;
@@ -148,27 +213,22 @@ class Search {
                         std::back_inserter(finer));
     }
     std::ranges::move(judge_all(finer), std::back_inserter(judged));
-    OrientResult result;
-    result.judged = judged.size();
-    std::vector<std::size_t> order = in_order(judged, &quick_figures, false);
-    order.resize(std::min(order.size(), options_.planned));
-    std::vector<JudgedDirection> planned;
-    planned.push_back(judged.front());  // as drawn: the first axis is z
-    for (const std::size_t i : order) {
-      if (i != 0) planned.push_back(judged[i]);
-    }
-    for_each_index(planned.size(), [&](std::size_t i) {
-      plan_supports(planned[i]);
-      step_on();
-    });
-    result.drawn = planned.front();
-    for (const std::size_t i : in_order(planned, &print_figures, true)) {
-      result.listed.push_back(planned[i]);
-    }
-    return result;
+    return judged;
   }
 
- private:
+  // Those for which supports are planned; as drawn first.
+  std::vector<JudgedDirection> best_of(
+      const std::vector<JudgedDirection>& judged) const {
+    std::vector<std::size_t> order = in_order(judged, &quick_figures, false);
+    order.resize(std::min(order.size(), options_.planned));
+    std::vector<JudgedDirection> best;
+    best.push_back(judged.front());
+    for (const std::size_t i : order) {
+      if (i != 0) best.push_back(judged[i]);
+    }
+    return best;
+  }
+
   // What counts before there are supports, and with them.
   static std::array<double, 3> quick_figures(const JudgedDirection& one) {
     return {one.overhang, one.cups, one.height};
@@ -184,14 +244,27 @@ class Search {
     return scene;
   }
 
+  // Those that are judged before the search is stopped.
   std::vector<JudgedDirection> judge_all(const std::vector<Vec3>& directions) {
-    std::vector<JudgedDirection> judged(directions.size());
+    std::vector<std::optional<JudgedDirection>> all(directions.size());
     for_each_index(directions.size(), [&](std::size_t i) {
-      judged[i].up = directions[i];
-      judge(judged[i]);
+      if (stops()) return;
+      JudgedDirection one;
+      one.up = in_thousandths(directions[i]);
+      judge(one);
+      all[i] = one;
       step_on();
     });
+    std::vector<JudgedDirection> judged;
+    for (const auto& one : all) {
+      if (one) judged.push_back(*one);
+    }
     return judged;
+  }
+
+  bool stops() {
+    if (options_.should_stop && options_.should_stop()) is_stopped_ = true;
+    return is_stopped_;
   }
 
   void judge(JudgedDirection& one) const {
@@ -245,7 +318,8 @@ class Search {
                                            one.layers, 0, 0)
                         .seconds;
     }
-    one.picture = slicer::front_svg(layers, plan);
+    if (options_.draw) one.picture = options_.draw(layers, plan);
+    one.is_planned = true;
   }
 
   void step_on() {
@@ -259,10 +333,11 @@ class Search {
   const csg::Scene& scene_;
   const Request& request_;
   const Machine& machine_;
-  slicer::Settings settings_;
+  const slicer::Settings settings_;
   const slicer::SupportSizes sizes_;
   const OrientOptions& options_;
   const std::size_t steps_;
+  std::atomic<bool> is_stopped_ = false;
   std::mutex mutex_;
   std::size_t done_ = 0;
 };
@@ -271,6 +346,7 @@ class Search {
 
 std::optional<OrientResult> find_orientations(Compilation& c,
                                               const OrientOptions& options) {
+  c.request.geometry.turn = 0;
   c.report.machine = choose_machine(c.request.output, c.file_access());
   const auto lowered = make_geometry(c);
   if (!lowered) return std::nullopt;
@@ -278,6 +354,39 @@ std::optional<OrientResult> find_orientations(Compilation& c,
     throw GeometryError("The design is flat: a solid was expected");
   }
   return Search(*lowered->scene(), c.request, c.report.machine, options).find();
+}
+
+std::optional<FoundDirection> find_direction(const Request& request,
+                                             std::size_t evaluation_stack,
+                                             TemporaryFiles& files) {
+  Request searched = request;
+  searched.geometry.searched_direction = 0;
+  searched.supports.reset();
+  Compilation compilation(searched, files);
+  compilation.evaluation_stack = evaluation_stack;
+  OrientOptions options;
+  options.sizes = request.supports;
+  std::optional<OrientResult> found;
+  try {
+    found = find_orientations(compilation, options);
+  } catch (const InternalError&) {
+    throw;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  if (!found) return std::nullopt;
+  const unsigned rank = request.geometry.searched_direction;
+  if (rank > found->listed.size()) {
+    throw GeometryError(
+        fmt::format("--orient {}: 'lamina orient' lists {} of this design",
+                    rank, counted(found->listed.size(), "direction")));
+  }
+  return FoundDirection{found->listed[rank - 1].up, found->judged};
+}
+
+std::string direction_text(Vec3 up) {
+  up = in_thousandths(up);
+  return fmt::format("{:g},{:g},{:g}", up.x, up.y, up.z);
 }
 
 }  // namespace lamina::compiler

@@ -1,4 +1,4 @@
-#include "compiler/comparison.h"
+#include "compiler/tasks/comparison.h"
 
 #include <algorithm>
 #include <cmath>

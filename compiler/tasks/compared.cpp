@@ -1,4 +1,4 @@
-#include "compiler/compared.h"
+#include "compiler/tasks/compared.h"
 
 #include <algorithm>
 #include <optional>
