@@ -142,13 +142,15 @@ int run_program(int argc, char** argv) {
   restrict_process(access);
   TemporaryFiles temporary_files(access);
   ProcessWatch watch(limits);
-  return run_on_stack(temporary_files, watch, [&](std::size_t stack) {
-    // A session may fail to begin.
-    Terminal terminal(false);
-    return run_caught(terminal, {}, [&] {
-      return command->run({temporary_files, stack, watch});
-    });
-  });
+  Interrupt interrupt;
+  return run_on_stack(
+      temporary_files, watch, interrupt, [&](std::size_t stack) {
+        // A session may fail to begin.
+        Terminal terminal(false);
+        return run_caught(terminal, {}, [&] {
+          return command->run({temporary_files, stack, watch, interrupt});
+        });
+      });
 }
 
 }  // namespace

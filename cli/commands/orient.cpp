@@ -33,7 +33,7 @@ constexpr std::string_view kOrientHelp =
 Judges hundreds of directions in which DESIGN can be built, each by its islands,
 overhangs and suction cups, the best also by the supports that it would need, and
 lists those that no other beats in everything. Slice with the --orient of the
-one you like.
+one you like. Ctrl-C lists what has been judged until then; a second one ends.
 
   -o FILE             write the list as a page with pictures (.html) or JSON
                       (.json)
@@ -90,10 +90,13 @@ class OrientCommand : public Command {
         line.show(done);
       };
       if (output_.ends_with(".html")) options.draw = slicer::front_svg;
+      options.should_stop = [&] { return context.interrupt.asks_to_end(); };
       const auto found =
           compiler::find_orientations(session.compilation, options);
+      context.interrupt.stop_asking();
       if (!found) return kFault;
       session.terminal.progress().erase();
+      if (found->listed.empty()) return kInterrupted;
       if (!is_quiet_) print_out(table_of(*found));
       if (!output_.empty()) {
         compiler::write_file(

@@ -137,8 +137,10 @@ class WorkerPool {
   Outcome make(const Piece& piece, std::size_t stack, Inbox& inbox) {
     compiler::Request request = piece.request;
     request.job.threads = threads_per_piece_;
-    Session session(request, options_.is_quiet,
-                    {context_.temporary_files, stack, context_.watch}, &inbox);
+    Session session(
+        request, options_.is_quiet,
+        {context_.temporary_files, stack, context_.watch, context_.interrupt},
+        &inbox);
     compiler::Compilation& compilation = session.compilation;
     const int status = session.run([&] {
       if (!piece.fault.empty()) throw GeometryError(piece.fault);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/file/output_file.h"
+#include "cli/process/interrupt.h"
 #include "cli/process/process_watch.h"
 
 namespace lamina::cli {
@@ -14,6 +15,7 @@ struct Context {
   TemporaryFiles& temporary_files;
   std::size_t stack;  // bytes, of the thread that runs the command
   ProcessWatch& watch;
+  Interrupt& interrupt;
 
   const FileAccess& file_access() const {
     return temporary_files.file_access();

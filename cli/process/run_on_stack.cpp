@@ -126,7 +126,7 @@ siginfo_t wait_for(const sigset_t& signals, std::chrono::nanoseconds time) {
 
 // Returns when the work is done.
 void watch_over(const sigset_t& signals, TemporaryFiles& temporary_files,
-                ProcessWatch& watch) {
+                ProcessWatch& watch, Interrupt& interrupt) {
   while (true) {
     const siginfo_t received = wait_for(signals, watch.pause());
     switch (received.si_signo) {
@@ -137,6 +137,9 @@ void watch_over(const sigset_t& signals, TemporaryFiles& temporary_files,
                     lost_text(received.si_value.sival_int));
       case 0:
         break;
+      case SIGINT:
+        if (interrupt.take()) break;
+        [[fallthrough]];
       default:
         end_process(temporary_files, kInterrupted, "");
     }
@@ -149,6 +152,7 @@ void watch_over(const sigset_t& signals, TemporaryFiles& temporary_files,
 }  // namespace
 
 int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
+                 Interrupt& interrupt,
                  const std::function<int(std::size_t)>& work) {
   // A reader that closes its pipe early, and a file larger than the user may
   // write, are failed writes, not a death.
@@ -174,7 +178,7 @@ int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
                 "it (ulimit -u, -d, -v)\n");
   }
   try {
-    watch_over(signals, temporary_files, watch);
+    watch_over(signals, temporary_files, watch, interrupt);
   } catch (const std::bad_alloc&) {
     end_process(temporary_files, kFault, "error: out of memory\n");
   }

@@ -15,6 +15,7 @@
 #include <pthread.h>
 
 #include "base/file/output_file.h"
+#include "cli/process/interrupt.h"
 #include "cli/process/process_watch.h"
 
 namespace lamina::cli {
@@ -58,9 +59,11 @@ class LargeStack {
 
 // Runs `work` with the stack's size in bytes and returns its result, an exit
 // status. On SIGINT, SIGTERM or SIGHUP it discards the temporary files and
-// ends the process with status 130; where a limit is exceeded, with a message
-// and status 1. A message that nobody takes within a second is dropped.
+// ends the process with status 130, unless `interrupt` takes the SIGINT; where
+// a limit is exceeded, with a message and status 1. A message that nobody takes
+// within a second is dropped.
 int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
+                 Interrupt& interrupt,
                  const std::function<int(std::size_t stack_bytes)>& work);
 
 }  // namespace lamina::cli

@@ -1,12 +1,15 @@
 // lamina orient, and slicing as it says.
 
+#include <chrono>
 #include <cmath>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <signal.h>
 
 #include "tests/cli/lamina.h"
 #include "tests/support/text.h"
@@ -211,6 +214,43 @@ TEST(Orient, PiecesOfPlatesLieAsTheyShould) {
   EXPECT_EQ(result.status, 0) << result.errors;
   EXPECT_TRUE(has(result.errors, "a: direction: --orient 0,0,-1, found among"))
       << result.errors;
+}
+
+// Slices for many minutes in each direction but few.
+constexpr const char* kSlow = "cylinder(r = 300, h = 900, $fn = 3000);";
+
+TEST(Orient, AnInterruptListsWhatWasJudged) {
+  if (!support::has_terminals()) GTEST_SKIP() << "needs terminals";
+  const TemporaryFolder folder;
+  folder.write("a.scad", kTable);
+  const auto result = support::run_on_terminal(
+      command({"orient", "a.scad", "-o", "o.json", "--directions", "10000"}),
+      folder.path(), "directions");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(has(result.output, "interrupted: ")) << result.output;
+  EXPECT_TRUE(has(result.output,
+                  " of 10000 directions judged, supports "
+                  "planned for 0; "))
+      << result.output;
+  const json found = json::parse(read_file(folder.file("o.json")));
+  EXPECT_EQ(found["interrupted"], true);
+  EXPECT_GT(found["judged"], 0);
+  EXPECT_LT(found["judged"], 9000);
+  ASSERT_GE(found["listed"].size(), 1U);
+  EXPECT_FALSE(found["listed"][0].contains("contacts"));
+}
+
+TEST(Orient, ASecondInterruptEndsAtOnce) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kSlow);
+  support::BackgroundProcess process(
+      command({"orient", "a.scad", "-o", "o.json"}), folder.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  process.send(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  process.send(SIGINT);
+  EXPECT_EQ(process.wait(), 130);
+  EXPECT_EQ(folder.entry_count(), 1U);
 }
 
 TEST(Orient, RefusesWhatItCannotMean) {
