@@ -21,6 +21,7 @@
 #include "csg/boundary/move_scene.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/slice/slice.h"
+#include "slicer/slice/visible_surface.h"
 #include "slicer/supports/support_plan.h"
 
 namespace lamina::compiler {
@@ -126,6 +127,21 @@ std::vector<std::size_t> in_order(const std::vector<JudgedDirection>& judged,
   return ordered;
 }
 
+// The disks of tips that touch what is seen [mm²].
+double visible_area(const slicer::SupportPlan& plan,
+                    const slicer::VisibleSurface& seen) {
+  double area = 0;
+  for (const slicer::Support& support : plan.supports) {
+    const double disk = std::numbers::pi / 4 * support.tip * support.tip;
+    if (seen.is_at(support.contact)) area += disk;
+    if (support.end == slicer::SupportEnd::kPart &&
+        seen.is_at(support.path.back())) {
+      area += disk;
+    }
+  }
+  return area;
+}
+
 class Search {
  public:
   Search(const csg::Scene& scene, const Request& request,
@@ -144,6 +160,8 @@ class Search {
     const std::vector<JudgedDirection> judged = find_quickly();
     result.judged = judged.size();
     result.is_stopped = is_stopped_;
+    result.has_visible =
+        std::ranges::any_of(scene_.instances, &csg::Instance::is_visible);
     if (judged.empty()) return result;
     std::vector<JudgedDirection> best = best_of(judged);
     for_each_index(best.size(), [&](std::size_t i) {
@@ -233,9 +251,13 @@ class Search {
   static std::array<double, 3> quick_figures(const JudgedDirection& one) {
     return {one.overhang, one.cups, one.height};
   }
-  static std::array<double, 5> print_figures(const JudgedDirection& one) {
-    return {static_cast<double>(one.unheld), one.contact_area,
-            one.support_volume, one.cups, one.height};
+  static std::array<double, 6> print_figures(const JudgedDirection& one) {
+    return {static_cast<double>(one.unheld),
+            one.contact_area,
+            one.visible_area,
+            one.support_volume,
+            one.cups,
+            one.height};
   }
 
   csg::Scene turned(Vec3 up) const {
@@ -307,6 +329,9 @@ class Search {
                                    marked_solids(scene, layers, request_));
       one.contacts = plan.supports.size();
       one.contact_area = plan.contact_area();
+      if (const auto seen = slicer::VisibleSurface::of(scene, layers)) {
+        one.visible_area = visible_area(plan, *seen);
+      }
       one.support_volume = plan.volume();
       one.unheld = plan.unheld.size() + plan.unwanted.size();
       if (one.contacts > 0) one.height += layers.front().bottom - plan.bed;

@@ -38,6 +38,7 @@ struct JudgedDirection {
   bool is_planned = false;
   std::size_t contacts = 0;
   double contact_area = 0;    // [mm²]
+  double visible_area = 0;    // of that, on leaves with $visible [mm²]
   double support_volume = 0;  // [mm³]
   std::size_t unheld = 0;     // places that no support reaches or may reach
   double seconds = 0;         // of the print; 0: not known
@@ -65,7 +66,8 @@ struct OrientResult {
   // some. Empty where the search was stopped before anything was judged.
   std::vector<JudgedDirection> listed;
   std::size_t judged = 0;
-  std::size_t planned = 0;  // of these
+  std::size_t planned = 0;   // of these
+  bool has_visible = false;  // whether a leaf has $visible
   bool is_stopped = false;
 };
 

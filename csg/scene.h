@@ -82,6 +82,7 @@ struct Instance {
   // No volume, but seen by hulls, sums and shadows. Only in scenes lowered for
   // these, as a child of a root that is a union.
   bool is_flat = false;
+  bool is_visible = false;  // seen when the part is worn, as of the node
   Affine world_from_leaf{1.0};
   Box3 box;           // in the world, of the transformed vertices
   SourceRange range;  // of the module call that made the leaf

@@ -246,6 +246,7 @@ struct Node {
   SourceRange range;
   const CallSite* caller = nullptr;
   float support_tip = kNoSupportTip;  // $support
+  bool is_visible = false;            // $visible
   bool is_root = false;               // !
   bool is_highlight = false;          // #
   bool is_background = false;         // %

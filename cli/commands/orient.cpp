@@ -111,14 +111,15 @@ class OrientCommand : public Command {
  private:
   // What supports would be is not known where none were planned.
   static std::string row_of(const compiler::JudgedDirection& one,
-                            std::string_view last) {
+                            bool has_visible, std::string_view last) {
     const auto planned = [&](auto figure) {
       return one.is_planned ? fmt::format("{:.4g}", static_cast<double>(figure))
                             : "-";
     };
     return fmt::format(
-        "{:>7.2f} {:>7} {:>8} {:>10} {:>10} {:>8} {:>6.4g}  {}\n", one.height,
+        "{:>7.2f} {:>7} {:>8} {:>10}{} {:>10} {:>8} {:>6.4g}  {}\n", one.height,
         one.islands, planned(one.contacts), planned(one.contact_area),
+        has_visible ? fmt::format(" {:>8}", planned(one.visible_area)) : "",
         planned(one.support_volume), planned(one.unheld), one.cups, last);
   }
 
@@ -137,15 +138,21 @@ class OrientCommand : public Command {
   }
 
   std::string table_of(const compiler::OrientResult& found) const {
+    const bool has_visible = found.has_visible;
     std::string text =
         judged_line(found) +
-        " height islands contacts  touch mm² resin mm³   unheld   cups  "
-        "--orient\n"
-        "     mm                                                    mm³\n";
+        fmt::format(
+            " height islands contacts  touch mm²{} resin mm³   unheld  "
+            " cups  --orient\n"
+            "     mm                              {}                   "
+            "   mm³\n",
+            has_visible ? " seen mm²" : "", has_visible ? "         " : "");
     for (const auto& one : found.listed) {
-      text += row_of(one, compiler::direction_text(one.up));
+      text += row_of(one, has_visible, compiler::direction_text(one.up));
     }
-    if (found.drawn) text += row_of(*found.drawn, "0,0,1 (as drawn)");
+    if (found.drawn) {
+      text += row_of(*found.drawn, has_visible, "0,0,1 (as drawn)");
+    }
     return text;
   }
 
@@ -159,6 +166,7 @@ class OrientCommand : public Command {
     row.update({{"layers", one.layers},
                 {"contacts", one.contacts},
                 {"contact_area_mm2", one.contact_area},
+                {"seen_area_mm2", one.visible_area},
                 {"support_volume_mm3", one.support_volume},
                 {"unheld", one.unheld},
                 {"seconds", one.seconds}});

@@ -320,6 +320,7 @@ void Lowerer::place(std::uint32_t leaf, Vec3 size, const Place& at) {
   if (instance.support_tip > 0) {
     instance.support_tip *= static_cast<float>(options_.scale);
   }
+  instance.is_visible = at.node.is_visible;
   instance.color = color_;
   builder_.push(instance);
 }

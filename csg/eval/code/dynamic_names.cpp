@@ -8,7 +8,7 @@ bool is_dynamic_name(std::string_view name) {
 
 DynamicNames::DynamicNames() {
   for (const char* name : {"$fn", "$fa", "$fs", "$fe", "$t", "$preview", "$vpt",
-                           "$vpr", "$vpd", "$vpf", "$support"}) {
+                           "$vpr", "$vpd", "$vpf", "$support", "$visible"}) {
     number_of(name);
   }
 }

@@ -23,6 +23,7 @@ enum WellKnown : std::uint32_t {
   kViewDistance,
   kViewField,
   kSupport,
+  kVisible,
 };
 
 // Whether `name` has dynamic scope.

@@ -363,6 +363,7 @@ void Interpreter::make_node(decltype(Node::op) op,
   node->range = code.range;
   node->caller = current_call;
   node->support_tip = support_tip();
+  node->is_visible = dynamic_[kVisible].is_true();
   node->is_root = code.modifiers.root;
   node->is_highlight = code.modifiers.highlight;
   node->is_background = code.modifiers.background;

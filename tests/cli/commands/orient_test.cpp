@@ -1,5 +1,6 @@
 // lamina orient, and slicing as it says.
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -60,9 +61,9 @@ TEST(Orient, ItsListIsAParetoFront) {
       folder,
       "rotate([20, 35, 0]) difference() { cube([20, 14, 9], center = true); "
       "translate([0, 0, 3]) cube([12, 8, 9], center = true); }");
-  const std::vector<std::string> figures = {"unheld", "contact_area_mm2",
-                                            "support_volume_mm3", "cups_mm3",
-                                            "height_mm"};
+  const std::vector<std::string> figures = {
+      "unheld",   "contact_area_mm2", "seen_area_mm2", "support_volume_mm3",
+      "cups_mm3", "height_mm"};
   const json& rows = found["listed"];
   ASSERT_GE(rows.size(), 2U);
   for (const json& a : rows) {
@@ -80,6 +81,58 @@ TEST(Orient, ItsListIsAParetoFront) {
                            up[2].get<double>()),
                 1, 2e-3);
   }
+}
+
+// The area of contacts and that on visible leaves, as drawn [mm²].
+std::array<double, 2> drawn_areas(const std::string& design) {
+  const TemporaryFolder folder;
+  const json drawn = listed(folder, design)["drawn"];
+  return {drawn["contact_area_mm2"], drawn["seen_area_mm2"]};
+}
+
+// All contacts are below the top of the table.
+TEST(Orient, CountsContactsOnVisibleLeaves) {
+  const std::string top = "translate([-10, -10, 10]) cube([20, 20, 2]";
+  const std::string leg = "); translate([-1, -1, 0]) cube([2, 2, 11]";
+  const auto [touched, seen] =
+      drawn_areas(top + ", $visible = true" + leg + ");");
+  EXPECT_GT(touched, 1);
+  EXPECT_NEAR(seen, touched, 0.08);  // but for one below the leg
+  EXPECT_LT(drawn_areas(top + leg + ", $visible = true);")[1], 0.08);
+  EXPECT_EQ(drawn_areas(top + leg + ");")[1], 0);
+  EXPECT_EQ(drawn_areas(top + leg + ", $visible = 0);")[1], 0);
+  // Children inherit it, and it may be computed.
+  const auto [all, all_seen] =
+      drawn_areas("$visible = 1 < 2; union() { " + top + leg + "); }");
+  EXPECT_DOUBLE_EQ(all, touched);
+  EXPECT_DOUBLE_EQ(all_seen, all);
+}
+
+// A leaf that is subtracted makes the surface that it leaves.
+TEST(Orient, CountsContactsOnWhatVisibleLeavesCutOut) {
+  const auto areas = [](const std::string& visible) {
+    return drawn_areas(
+        "difference() { translate([-15, -4, 0]) cube([30, 8, "
+        "14]); translate([-11, -5, -1]) cube([22, 10, 9]" +
+        visible + "); }");
+  };
+  const auto [touched, seen] = areas(", $visible = true");
+  EXPECT_GT(seen, 0.5);
+  EXPECT_GT(touched, seen + 0.3);  // the feet of the bridge
+  EXPECT_EQ(areas("")[1], 0);
+}
+
+TEST(Orient, NamesTheVisibleContactsOnlyWhereThereAreVisibleLeaves) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kTable);
+  folder.write("b.scad", std::string("$visible = true; ") + kTable);
+  const auto output = [&](const std::string& design) {
+    return run(folder,
+               {"orient", design, "--layer", "0.2", "--directions", "20"})
+        .output;
+  };
+  EXPECT_FALSE(has(output("a.scad"), "seen"));
+  EXPECT_TRUE(has(output("b.scad"), "seen mm²")) << output("b.scad");
 }
 
 TEST(Orient, TheSameListComesFromAnyNumberOfThreads) {
