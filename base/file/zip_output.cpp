@@ -83,9 +83,14 @@ ZipOutput::~ZipOutput() {
 }
 
 std::string ZipOutput::pack(std::string_view bytes) {
+  // What is packed here are images, which are packed themselves. Where they are
+  // small they still repeat themselves; large ones have runs at most, and the
+  // search for more would take as long as drawing them.
+  constexpr std::size_t kSmall = 1 << 16;
+  const int strategy = bytes.size() <= kSmall ? Z_DEFAULT_STRATEGY : Z_RLE;
   z_stream stream = {};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS,
-                   MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK) {
+                   MAX_MEM_LEVEL, strategy) != Z_OK) {
     throw std::bad_alloc();
   }
   PackedHead head;
@@ -95,8 +100,7 @@ std::string ZipOutput::pack(std::string_view bytes) {
   const auto size = static_cast<uInt>(bytes.size());
   std::string packed(sizeof(head) + deflateBound(&stream, size), '\0');
   std::memcpy(packed.data(), &head, sizeof(head));
-  stream.next_in =
-      reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   stream.avail_in = size;
   stream.next_out = reinterpret_cast<Bytef*>(packed.data() + sizeof(head));
   stream.avail_out = static_cast<uInt>(packed.size() - sizeof(head));
@@ -129,9 +133,8 @@ void ZipOutput::begin(const std::string& name, bool is_packed) {
   constexpr uLong kNamesAreUtf8 = 1 << 11;  // a flag of the entry
   check(zipOpenNewFileInZip4(archive_, name.c_str(), &info, nullptr, 0, nullptr,
                              0, nullptr, Z_DEFLATED, Z_DEFAULT_COMPRESSION,
-                             is_packed ? 1 : 0,
-                             -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
-                             nullptr, 0, 0, kNamesAreUtf8));
+                             is_packed ? 1 : 0, -MAX_WBITS, DEF_MEM_LEVEL,
+                             Z_DEFAULT_STRATEGY, nullptr, 0, 0, kNamesAreUtf8));
 }
 
 void ZipOutput::write(std::string_view bytes) {

@@ -1,6 +1,7 @@
 #include "slicer/pixels/coverage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -10,12 +11,16 @@ namespace {
 // A stroke ends in half circles of this many edges.
 constexpr int kRoundCorners = 6;
 
+constexpr unsigned kWordBits = 64;
+
 }  // namespace
 
 Coverage::Coverage(unsigned width, unsigned height)
     : width_(width),
       height_(height),
-      sums_(std::size_t{width + 2} * height, 0.0) {}
+      row_words_((std::size_t{width} + 2 + kWordBits - 1) / kWordBits),
+      sums_(std::size_t{width + 2} * height, 0.0),
+      touched_(row_words_ * height, 0) {}
 
 void Coverage::add_edge(Vec2 from, Vec2 to) {
   if (std::max(from.y, to.y) <= 0 || std::min(from.y, to.y) >= height_) return;
@@ -62,13 +67,17 @@ void Coverage::add_inside(Vec2 from, Vec2 to) {
       return std::clamp(upper.x + slope * (at - upper.y), 0.0,
                         static_cast<double>(width_));
     };
-    add_in_row(sums_.data() + std::size_t{y} * (width_ + 2),
-               direction * (bottom - top), x_at(top), x_at(bottom));
+    add_in_row(y, direction * (bottom - top), x_at(top), x_at(bottom));
   }
 }
 
 // Adds an edge within a row, dy rows high (signed), from x0 to x1.
-void Coverage::add_in_row(double* row, double dy, double x0, double x1) {
+void Coverage::add_in_row(unsigned y, double dy, double x0, double x1) {
+  double* const row = sums_.data() + std::size_t{y} * (width_ + 2);
+  std::uint64_t* const touched = touched_.data() + y * row_words_;
+  const auto touch = [&](std::size_t column) {
+    touched[column / kWordBits] |= std::uint64_t{1} << column % kWordBits;
+  };
   const double left = std::min(x0, x1);
   const double right = std::max(x0, x1);
   const auto first = static_cast<std::size_t>(left);
@@ -77,6 +86,8 @@ void Coverage::add_in_row(double* row, double dy, double x0, double x1) {
     const double middle = (left + right) / 2 - static_cast<double>(first);
     row[first] += dy * (1 - middle);
     row[first + 1] += dy * middle;
+    touch(first);
+    touch(first + 1);
     return;
   }
   // Each column gets the part of dy that falls into it.
@@ -89,6 +100,19 @@ void Coverage::add_in_row(double* row, double dy, double x0, double x1) {
     const double middle = (part_begin + part_end) / 2 - begin;
     row[column] += part * (1 - middle);
     row[column + 1] += part * middle;
+    touch(column);
+  }
+  touch(last + 1);
+}
+
+template <typename Visit>
+void Coverage::visit_touched(unsigned y, const Visit& visit) const {
+  const std::uint64_t* const touched = touched_.data() + y * row_words_;
+  for (std::size_t i = 0; i < row_words_; ++i) {
+    for (std::uint64_t bits = touched[i]; bits != 0; bits &= bits - 1) {
+      visit(static_cast<unsigned>(i * kWordBits) +
+            static_cast<unsigned>(std::countr_zero(bits)));
+    }
   }
 }
 
@@ -125,35 +149,46 @@ void Coverage::resolve_row(unsigned y, std::vector<GreyRun>& runs) const {
   runs.clear();
   const double* row = sums_.data() + std::size_t{y} * (width_ + 2);
   double sum = 0;
-  GreyRun run;
-  for (unsigned x = 0; x < width_; ++x) {
-    // The share changes only where an edge passes.
-    if (row[x] != 0) {
-      sum += row[x];
-      const double share = std::min(std::abs(sum), 1.0);
-      // Never negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
-      const auto grey = static_cast<std::uint8_t>(255 * share + 0.5);
-      if (grey != run.grey) {
-        if (run.count > 0) runs.push_back(run);
-        run = {grey, 0};
-      }
-    }
-    ++run.count;
+  std::uint8_t grey = 0;
+  unsigned begin = 0;  // of the run that goes on
+  // The share changes only where an edge passes.
+  visit_touched(y, [&](unsigned x) {
+    if (x >= width_) return;
+    sum += row[x];
+    const double share = std::min(std::abs(sum), 1.0);
+    // Never negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
+    const auto now = static_cast<std::uint8_t>(255 * share + 0.5);
+    if (now == grey) return;
+    if (x > begin) runs.push_back({grey, x - begin});
+    grey = now;
+    begin = x;
+  });
+  if (width_ > begin) runs.push_back({grey, width_ - begin});
+}
+
+void Coverage::clear() {
+  for (unsigned y = 0; y < height_; ++y) {
+    double* const row = sums_.data() + std::size_t{y} * (width_ + 2);
+    visit_touched(y, [&](unsigned x) { row[x] = 0; });
   }
-  if (run.count > 0) runs.push_back(run);
+  std::ranges::fill(touched_, 0);
+}
+
+void add_loop(Coverage& coverage, std::span<const Vec2> loop,
+              const PixelMap& map) {
+  if (loop.empty()) return;
+  Vec2 previous = map(loop.back());
+  for (const Vec2& point : loop) {
+    const Vec2 current = map(point);
+    coverage.add_edge(previous, current);
+    previous = current;
+  }
 }
 
 void add_contours(Coverage& coverage, const plane::Contours& contours,
                   const PixelMap& map) {
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const auto loop = contours.loop(i);
-    if (loop.empty()) continue;
-    Vec2 previous = map(loop.back());
-    for (const Vec2& point : loop) {
-      const Vec2 current = map(point);
-      coverage.add_edge(previous, current);
-      previous = current;
-    }
+    add_loop(coverage, contours.loop(i), map);
   }
 }
 

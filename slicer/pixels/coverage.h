@@ -6,8 +6,13 @@
 // covered share (the accumulation buffer of stb_truetype and font-rs). No
 // samples are drawn, so a share is wrong by rounding only. Edges left of the
 // image count in its first column, edges right of it do not count.
+//
+// Edges touch few pixels of a large image. A bit for each pixel says which
+// these are, so that resolving and clearing a row costs what was drawn in it.
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -42,13 +47,22 @@ class Coverage {
   // Replaces `runs` by those of equal pixels from the left, shares as 0 … 255.
   void resolve_row(unsigned y, std::vector<GreyRun>& runs) const;
 
+  // Takes away all that was added.
+  void clear();
+
  private:
   void add_inside(Vec2 from, Vec2 to);
-  void add_in_row(double* row, double dy, double x0, double x1);
+  void add_in_row(unsigned y, double dy, double x0, double x1);
+
+  // Calls visit(x) for the touched pixels of row y, from the left.
+  template <typename Visit>
+  void visit_touched(unsigned y, const Visit& visit) const;
 
   unsigned width_;
   unsigned height_;
-  std::vector<double> sums_;  // rows of width_ + 2
+  std::size_t row_words_;
+  std::vector<double> sums_;            // rows of width_ + 2
+  std::vector<std::uint64_t> touched_;  // rows of row_words_: bits of sums_
 };
 
 // Maps millimetres to the pixels of an image, whose y runs down.
@@ -61,6 +75,9 @@ struct PixelMap {
     return origin + mm.x * per_x + mm.y * per_y;
   }
 };
+
+void add_loop(Coverage& coverage, std::span<const Vec2> loop,
+              const PixelMap& map);
 
 void add_contours(Coverage& coverage, const plane::Contours& contours,
                   const PixelMap& map);

@@ -2,7 +2,9 @@
 // A layer on a printer's panel, as runs of equally covered pixels.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -35,6 +37,21 @@ inline PixelBox box_of(const plane::Contours& contours, unsigned width,
           static_cast<unsigned>(low.y), static_cast<unsigned>(high.y)};
 }
 
+// The rows of each loop [pixels]: the least and the greatest y.
+inline std::vector<Vec2> rows_of_loops(const plane::Contours& contours,
+                                       const PixelMap& map) {
+  std::vector<Vec2> rows(contours.loop_count());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = {std::numeric_limits<double>::infinity(),
+               -std::numeric_limits<double>::infinity()};
+    for (const Vec2& point : contours.loop(i)) {
+      const double y = map(point).y;
+      rows[i] = {std::min(rows[i].x, y), std::max(rows[i].y, y)};
+    }
+  }
+  return rows;
+}
+
 // Calls visit(grey, count) for all pixels, row by row from the top; runs go on
 // from one row to the next, and a grey may come in several runs.
 //
@@ -51,18 +68,25 @@ void visit_runs(const plane::Contours& contours, unsigned width,
   const unsigned band = std::max(1U, kBandPixels / std::max(1U, right - left));
   const std::uint64_t row_size = std::uint64_t{lead} + width;
   visit(0, first_row * row_size);
+  const std::vector<Vec2> rows = rows_of_loops(contours, map);
+  Coverage coverage(right - left, std::min(band, end_row - first_row));
   std::vector<GreyRun> runs;
   for (unsigned top = first_row; top < end_row; top += band) {
-    Coverage coverage(right - left, std::min(band, end_row - top));
+    const unsigned end = std::min(end_row, top + band);
     PixelMap shifted = map;
     shifted.origin -= Vec2(left, top);
-    add_contours(coverage, contours, shifted);
-    for (unsigned y = 0; y < coverage.height(); ++y) {
+    // A loop that is not in the band, by more than rounding, adds nothing.
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].y < top - 1.0 || rows[i].x > end + 1.0) continue;
+      add_loop(coverage, contours.loop(i), shifted);
+    }
+    for (unsigned y = 0; y < end - top; ++y) {
       visit(0, std::uint64_t{lead} + left);
       coverage.resolve_row(y, runs);
       for (const GreyRun& run : runs) visit(run.grey, run.count);
       visit(0, width - right);
     }
+    coverage.clear();
   }
   visit(0, (height - end_row) * row_size);
 }

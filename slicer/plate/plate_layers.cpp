@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/parallel.h"
 #include "slicer/plate/footprint.h"
@@ -11,8 +12,15 @@
 namespace lamina::slicer {
 namespace {
 
-// Layers that are encoded at a time.
-constexpr std::size_t kBatch = 64;
+// Layers that are under way at a time, so that all threads have work while one
+// layer is written.
+constexpr std::size_t kPlaces = 16;
+
+struct Encoded {
+  std::size_t index = 0;
+  Layer layer;
+  std::string bytes;
+};
 
 void add(const plane::Contours& contours, const PlateMotion& motion,
          plane::Contours& plate) {
@@ -75,18 +83,23 @@ Layer PlateLayers::layer(std::size_t index) const {
 void PlateLayers::send_to(LayerSink& sink) const {
   sink.begin(box());
   sink.expect(static_cast<std::uint32_t>(count_));
-  std::vector<std::pair<Layer, std::string>> batch;
-  for (std::size_t begin = 0; begin < count_; begin += kBatch) {
-    batch.resize(std::min(kBatch, count_ - begin));
-    for_each_index(batch.size(), [&](std::size_t i) {
-      batch[i].first = layer(begin + i);
-      if (batch[i].first.contours.is_empty()) return;
-      batch[i].second = sink.encode(batch[i].first);
-    });
-    for (const auto& [layer, encoded] : batch) {
-      sink.take_encoded(layer, encoded);
-    }
-  }
+  std::vector<Encoded> places(kPlaces);
+  std::size_t next = 0;
+  run_in_order(places.size(), 0,
+               {[&](std::size_t i) {
+                  if (next == count_) return false;
+                  places[i].index = next++;
+                  return true;
+                },
+                [&](std::size_t i) {
+                  places[i].layer = layer(places[i].index);
+                  places[i].bytes.clear();
+                  if (places[i].layer.contours.is_empty()) return;
+                  places[i].bytes = sink.encode(places[i].layer);
+                },
+                [&](std::size_t i) {
+                  sink.take_encoded(places[i].layer, places[i].bytes);
+                }});
 }
 
 }  // namespace lamina::slicer

@@ -5,11 +5,12 @@
 // An image of millions of bytes is some thousands of runs. zlib looks at every
 // byte, which took hundreds of times as long as making the layers; here the
 // codes of a run and its part in the checksum follow from its length. The
-// stream is one block in one fixed Huffman code, made for images of layers (RFC
-// 1950, RFC 1951); files are as small as zlib's.
+// stream is blocks of many runs, each in the Huffman code that suits them best
+// (RFC 1950, RFC 1951); files are smaller than zlib's.
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lamina::slicer {
 
@@ -24,12 +25,17 @@ class RunDeflater {
   std::string finish();
 
  private:
-  void write_run();
-  void write_matches(std::uint64_t count);
+  struct Run {
+    std::uint64_t value : 8;
+    std::uint64_t count : 56;
+  };
+
+  void end_run();
+  void write_block(bool is_last);
   void put(std::uint64_t bits, int count);
-  void put_header();
 
   std::string bytes_;
+  std::vector<Run> runs_;   // of the block that is not written yet
   std::uint64_t bits_ = 0;  // not yet in bytes_, the first one lowest
   int bit_count_ = 0;       // below 32
   std::uint8_t value_ = 0;  // of the run that goes on

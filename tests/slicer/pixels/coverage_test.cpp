@@ -129,5 +129,37 @@ TEST(Coverage, StrokesHaveTheirThickness) {
   EXPECT_NEAR(sum_of(coverage), 200 + 12 * std::sin(M_PI / 6) / 2 * 4, 1e-3);
 }
 
+TEST(Coverage, ClearsWhatWasDrawn) {
+  const auto draw = [](Coverage& coverage, double shift) {
+    for (int i = 0; i < 5; ++i) {
+      coverage.add_stroke({3.3 * i + shift, -2}, {190 - 20 * i + shift, 44.5},
+                          2.5);
+    }
+  };
+  Coverage used(200, 40);
+  draw(used, 0);
+  used.clear();
+  draw(used, 7.25);
+  Coverage fresh(200, 40);
+  draw(fresh, 7.25);
+  std::vector<float> expected;
+  std::vector<float> shares;
+  std::vector<GreyRun> runs;
+  for (unsigned y = 0; y < 40; ++y) {
+    fresh.resolve_row(y, expected);
+    used.resolve_row(y, shares);
+    EXPECT_EQ(shares, expected);
+    // The runs are these shares.
+    used.resolve_row(y, runs);
+    std::size_t x = 0;
+    for (const GreyRun& run : runs) {
+      for (unsigned i = 0; i < run.count; ++i, ++x) {
+        EXPECT_NEAR(run.grey, 255 * double{expected.at(x)}, 0.501);
+      }
+    }
+    EXPECT_EQ(x, 200U);
+  }
+}
+
 }  // namespace
 }  // namespace lamina::slicer

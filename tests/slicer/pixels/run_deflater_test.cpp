@@ -48,6 +48,39 @@ void expect_back(const std::vector<Bytes>& runs) {
   EXPECT_TRUE(unpack(pack(runs), bytes.size()) == bytes);
 }
 
+// More runs than a block has; each block has a code of its own.
+TEST(RunDeflater, BlocksFollowEachOther) {
+  std::mt19937 random(7);
+  std::vector<Bytes> runs;
+  for (std::size_t i = 0; i < 400000; ++i) {
+    const bool is_early = i < 200000;
+    runs.push_back({static_cast<std::uint8_t>(i % (is_early ? 2 : 200)),
+                    1 + random() % (is_early ? 40 : 4)});
+  }
+  expect_back(runs);
+}
+
+// Rows of black and white with grey edges, as a plate of rings has them.
+TEST(RunDeflater, IsSmallerThanZlib) {
+  std::mt19937 random(3);
+  std::vector<Bytes> runs;
+  for (int row = 0; row < 1000; ++row) {
+    for (int edge = 0; edge < 12; ++edge) {
+      runs.push_back(
+          {static_cast<std::uint8_t>(edge % 2 * 255), 20 + random() % 150});
+      runs.push_back({static_cast<std::uint8_t>(1 + random() % 254), 1});
+    }
+  }
+  const std::string bytes = bytes_of(runs);
+  uLongf size = compressBound(bytes.size());
+  std::string packed(size, '\0');
+  ASSERT_EQ(
+      compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()),
+      Z_OK);
+  EXPECT_LT(pack(runs).size(), size);
+}
+
 TEST(RunDeflater, NothingUnpacksToNothing) { expect_back({}); }
 
 TEST(RunDeflater, EveryByteComesBack) {
