@@ -107,6 +107,7 @@ struct Request {
   // the usual one.
   std::optional<slicer::SupportSizes> supports;
   SupportLines support_lines;
+  std::string raft_label;  // a text in the raft of the supports; empty: none
   OutputRequest output;
 };
 

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "compiler/compile.h"
 #include "compiler/machine.h"
 #include "compiler/source_lines.h"
@@ -20,6 +21,7 @@
 #include "slicer/slice/leaf_at.h"
 #include "slicer/slice/scene_parts.h"
 #include "slicer/slice/slice.h"
+#include "slicer/supports/raft_label.h"
 #include "slicer/supports/support_text.h"
 
 namespace lamina::compiler {
@@ -143,6 +145,38 @@ void name_lines(const csg::Scene& scene,
   }
 }
 
+// The box of the label's outline, in the font that text() has.
+Box2 label_box(const std::string& label, text::Typesetter& typesetter,
+               Diagnostics& diagnostics) {
+  csg::TextParams params;
+  params.text = label;
+  params.size = slicer::kLabelSize;
+  params.direction = "ltr";
+  params.language = "en";
+  params.halign = "left";
+  params.valign = "baseline";
+  Box2 box;
+  for (const auto& contour :
+       typesetter.outline(params, {.count = 8}, {}, diagnostics)) {
+    for (const Vec2 point : contour) box.add(point);
+  }
+  return box;
+}
+
+void add_label(const Request& request, text::Typesetter& typesetter,
+               slicer::SupportPlan& plan, Diagnostics& diagnostics) {
+  const std::string& label = request.raft_label;
+  if (label.empty()) return;
+  const Box2 box = label_box(label, typesetter, diagnostics);
+  if (box.is_empty() || !slicer::add_label(label, box, plan)) {
+    diagnostics.own_warning(
+        {}, fmt::format("no label {}: {}", in_quotes(label),
+                        box.is_empty() ? "the font has no letters for it"
+                                       : "the part needs no supports, so there "
+                                         "is no raft"));
+  }
+}
+
 }  // namespace
 
 slicer::SupportSizes support_sizes(const slicer::SupportSizes& asked,
@@ -211,6 +245,7 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
                     choose_machine(request.output, files.file_access())),
       marked_solids(scene, layers, request));
   name_lines(scene, layers, plan);
+  add_label(request, compilation.readers.typesetter, plan, diagnostics);
   warn_of_unheld(plan, diagnostics);
   return plan;
 }

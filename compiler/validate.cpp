@@ -104,6 +104,9 @@ void refuse_turn(const Request& request) {
   refuse_if(!request.supports && (!request.support_lines.only.empty() ||
                                   !request.support_lines.without.empty()),
             "--support-on and --no-support-on need --supports");
+  refuse_if(!request.raft_label.empty() &&
+                (!request.supports || !request.supports->has_raft),
+            "--label needs a raft: --supports=medium,raft");
   refuse_if(request.supports && geometry.axis == kAutomaticAxis,
             "--supports needs an axis, not --axis auto");
   refuse_if(request.supports && !request.job.heights.empty(),

@@ -56,6 +56,8 @@ Pieces of like height share a plate: the highest decides how long it takes.
   --margin MM     least distance to the edge of the plate [1]
   --turns N       turns about z that are tried, 1 to 36 [8]
   --plate W,D     the plate's size in mm, where no printer is named
+  --label         engrave each piece's name in the raft of its supports, which
+                  --supports=medium,raft has: 0.4 mm deep, letters 2 mm high
   --map FILE      which piece lies where: a page (.html), or JSON (.json)
   --strict        write nothing if a piece has a warning
   --fail-on KINDS write nothing if a piece has islands, loose-parts, overhangs,
@@ -75,11 +77,11 @@ constexpr double kSlack = 1e-6;
 constexpr double kGreatestLength = 10000;
 
 // Pieces are equal where these are.
-using PieceKey = std::tuple<std::string, std::string, std::string>;
+using PieceKey = std::tuple<std::string, std::string, std::string, std::string>;
 
 PieceKey key_of(const compiler::Request& request) {
   return {request.design.path, request.design.definitions,
-          request.output.material};
+          request.output.material, request.raft_label};
 }
 
 // What is sliced once.
@@ -114,6 +116,7 @@ class PlateCommand : public Command {
     options.text("--plate", "size", [this](const std::string& text) {
       plate_.size = size_of(text);
     });
+    options.flag("--label", has_labels_);
     options.name("--map", "file", map_);
     add_output_options(options, request_, output_options_);
     add_design_options(options, request_, is_quiet_);
@@ -148,6 +151,8 @@ class PlateCommand : public Command {
               "plates are layers; '{}' is none", request_.output.path);
     request_.geometry.is_placed_on_bed = true;
     request_.design.path = designs_.empty() ? "" : designs_.front();
+    // Each piece gets its own.
+    if (has_labels_) request_.raft_label = "name";
     compiler::validate(request_);
   }
 
@@ -224,7 +229,8 @@ class PlateCommand : public Command {
                                       Diagnostics& diagnostics) const {
     std::vector<PlatePiece> pieces;
     std::map<PieceKey, std::size_t> known;
-    for (const Order& order : orders(context, sources, diagnostics)) {
+    for (Order& order : orders(context, sources, diagnostics)) {
+      if (has_labels_) order.request.raft_label = on_one_line(order.name);
       const auto [at, is_new] =
           known.try_emplace(key_of(order.request), pieces.size());
       if (is_new) pieces.push_back({order.request, order.name, 0});
@@ -461,6 +467,7 @@ class PlateCommand : public Command {
   std::optional<unsigned> turns_;
   slicer::Plate plate_ = {.gap = 2, .margin = 1};
   std::string map_;
+  bool has_labels_ = false;
   double height_ = std::numeric_limits<double>::infinity();  // [mm]
   compiler::Request request_;
   OutputOptions output_options_;

@@ -19,6 +19,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,11 +66,20 @@ struct Support {
 // A rod between two pillars.
 using Brace = std::array<Vec3, 2>;
 
+// A text that is engraved in the top of a raft.
+struct RaftLabel {
+  std::string text;
+  Vec2 origin = Vec2(0);    // where the text begins
+  bool is_upright = false;  // it runs along y instead of x
+  std::optional<Box2> tab;  // of the raft, for the text alone
+};
+
 struct SupportPlan {
   SupportSizes sizes;
   double bed = 0;  // height of the bed below the part [mm]
   std::vector<Support> supports;
   std::vector<Brace> braces;
+  std::optional<RaftLabel> label;  // of a raft
   // Places that must be held and to which no way was found.
   std::vector<Vec3> unheld;
   // Places that must be held and where the design wants no supports.

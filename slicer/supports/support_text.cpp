@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/text.h"
+#include "slicer/supports/raft_label.h"
+
 namespace lamina::slicer {
 namespace {
 
@@ -70,6 +73,32 @@ constexpr const char* kRaftModule = R"(
                h = support_foot_height, $fn = 32);
 )";
 
+constexpr const char* kLabeledRaftModule = R"(
+  // A plate that joins the feet, with a name engraved in its top. `tab`, x, y,
+  // width and depth, is a part of the plate that is there for the name alone.
+  module support_raft(feet, name, origin, turn = 0, tab = undef) {
+    low = support_foot_height - support_label_depth;
+    translate([0, 0, feet[0][2]]) {
+      hull() for (foot = feet) translate([foot[0], foot[1], 0])
+        cylinder(d1 = support_foot, d2 = support_foot + 2 * low, h = low,
+                 $fn = 32);
+      if (tab != undef)
+        translate([tab[0], tab[1], 0]) cube([tab[2], tab[3], low]);
+      translate([0, 0, low])
+        linear_extrude(height = support_label_depth) difference() {
+          union() {
+            hull() for (foot = feet) translate([foot[0], foot[1]])
+              circle(d = support_foot + 2 * low, $fn = 32);
+            if (tab != undef)
+              translate([tab[0], tab[1]]) square([tab[2], tab[3]]);
+          }
+          translate(origin) rotate(turn)
+            text(name, size = support_label_size);
+        }
+    }
+  }
+)";
+
 // "1.5", "0.125": as short as a micrometre allows.
 std::string word(double value) {
   std::string text = fmt::format("{:.3f}", value);
@@ -126,9 +155,14 @@ class TextMaker {
     add("  support_foot = {:g};  // diameter on the bed\n"
         "  support_foot_height = {:g};\n",
         sizes.foot, sizes.foot_height);
+    if (plan_.label) {
+      add("  support_label_size = {:g};  // of letters in the raft\n"
+          "  support_label_depth = {:g};\n",
+          kLabelSize, kLabelDepth);
+    }
     text_ += kModules;
     if (!plan_.braces.empty()) text_ += kBraceModule;
-    if (sizes.has_raft) text_ += kRaftModule;
+    if (sizes.has_raft) text_ += plan_.label ? kLabeledRaftModule : kRaftModule;
     text_ += '\n';
   }
 
@@ -159,7 +193,19 @@ class TextMaker {
       text_ += words({foot.x, foot.y, plan_.bed});
       is_first = false;
     }
-    text_ += "]);\n";
+    text_ += ']';
+    if (plan_.label) add_label(*plan_.label);
+    text_ += ");\n";
+  }
+
+  void add_label(const RaftLabel& label) {
+    add(", {}, [{}, {}]", in_quotes(label.text), word(label.origin.x),
+        word(label.origin.y));
+    if (label.is_upright) text_ += ", turn = 90";
+    if (!label.tab) return;
+    const Vec2 size = label.tab->high - label.tab->low;
+    add(", tab = [{}, {}, {}, {}]", word(label.tab->low.x),
+        word(label.tab->low.y), word(size.x), word(size.y));
   }
 
   const SupportPlan& plan_;

@@ -495,5 +495,120 @@ TEST_F(PlateCommand, MistakesAreRefused) {
                   "--plate 300,40 is larger than what Elegoo Mars 4 builds"));
 }
 
+// --- Labels -----------------------------------------------------------------
+
+// The holes of a layer, counter-clockwise.
+std::vector<Loop> holes_of(const PlateLayer& layer) {
+  std::vector<Loop> holes;
+  for (const Loop& loop : layer.loops) {
+    if (area_of({0, {loop}}) > 0) continue;
+    holes.emplace_back(loop.rbegin(), loop.rend());
+  }
+  return holes;
+}
+
+// Whether one loop is the other, turned by a quarter turn or not at all, and
+// shifted; never mirrored.
+bool is_moved(const Loop& a, const Loop& b) {
+  if (a.size() != b.size()) return false;
+  const auto edge = [](const Loop& loop, std::size_t i) {
+    return loop[(i + 1) % loop.size()] - loop[i % loop.size()];
+  };
+  for (const bool is_turned : {false, true}) {
+    for (std::size_t shift = 0; shift < a.size(); ++shift) {
+      bool is_same = true;
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        const Vec2 one = edge(a, i);
+        const Vec2 turned = is_turned ? Vec2(-one.y, one.x) : one;
+        const Vec2 off = turned - edge(b, i + shift);
+        is_same = is_same && std::hypot(off.x, off.y) < 0.005;
+      }
+      if (is_same) return true;
+    }
+  }
+  return false;
+}
+
+class PlateLabels : public PlateCommand {
+ protected:
+  // A plate of parts on rafts, in layers of 0.2 mm.
+  std::vector<PlateLayer> labeled(std::vector<std::string> words) const {
+    words.insert(words.begin(), "plate");
+    words.insert(words.end(),
+                 {"--plate", "150,120", "--layer", "0.2", "--turns", "1",
+                  "--supports=medium,raft", "--label", "-o", "p.layers.json"});
+    const auto result = run(folder_, words);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return layers_of(folder_, "p.layers.json");
+  }
+
+  // What a text is by itself.
+  std::vector<Loop> letters(const std::string& text) const {
+    folder_.write("text.scad",
+                  "linear_extrude(1) text(\"" + text + "\", size = 2.8);");
+    EXPECT_EQ(run(folder_, {"text.scad", "--layer", "0.5", "-q", "-o",
+                            "text.layers.json"})
+                  .status,
+              0);
+    return layers_of(folder_, "text.layers.json").front().loops;
+  }
+
+  static double area_of_loops(const std::vector<Loop>& loops) {
+    return area_of({0, loops});
+  }
+};
+
+TEST_F(PlateLabels, AreReadFromAboveInTheTopOfTheRaft) {
+  folder_.write("L.scad", "cube([24, 18, 3]);");
+  const auto layers = labeled({"L.scad"});
+  const auto expected = letters("L");
+  ASSERT_EQ(expected.size(), 1U);
+  // The raft is 1 mm high, and the letters are 0.4 mm deep.
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto holes = holes_of(layers[i]);
+    ASSERT_EQ(holes.size(), i < 3 ? 0U : 1U) << i;
+    if (i < 3) continue;
+    EXPECT_TRUE(is_moved(expected.front(), holes.front()));
+    Loop mirrored = holes.front();
+    for (Vec2& point : mirrored) point.x = -point.x;
+    std::ranges::reverse(mirrored);
+    EXPECT_FALSE(is_moved(expected.front(), mirrored));
+  }
+}
+
+// Small letters are 2 mm high.
+TEST_F(PlateLabels, AreLegible) {
+  for (const Loop& loop : letters("xz")) {
+    const auto [low, high] =
+        std::ranges::minmax_element(loop, {}, [](Vec2 p) { return p.y; });
+    EXPECT_GE(high->y - low->y, 2);
+  }
+}
+
+// The raft gets a tab where a name is too long, and pieces stay apart.
+TEST_F(PlateLabels, LongNamesLieOnATab) {
+  folder_.write("a.scad", "cube([8, 8, 3]);");
+  folder_.write(
+      "t.csv", "design,name,quantity\na.scad,LITTLE LIFT FILE,2\na.scad,T,1\n");
+  const auto layers = labeled({"--table", "t.csv"});
+  EXPECT_NEAR(area_of_loops(holes_of(layers[4])),
+              2 * area_of_loops(letters("LITTLE LIFT FILE")) +
+                  area_of_loops(letters("T")),
+              0.02);
+  // One outline each: the tabs hang together with their rafts.
+  EXPECT_EQ(layers[4].loops.size() - holes_of(layers[4]).size(), 3U);
+  EXPECT_EQ(layers[0].loops.size(), 3U);
+}
+
+TEST_F(PlateLabels, NeedARaft) {
+  for (const char* supports :
+       {"--no-strict", "--supports", "--supports=heavy"}) {
+    const std::string message =
+        failure({"cube.scad", "--label", supports, "-o", "p.slc"}, 2);
+    EXPECT_TRUE(has(message, "--label needs a raft: --supports=medium,raft"))
+        << message;
+  }
+}
+
 }  // namespace
 }  // namespace lamina::cli
