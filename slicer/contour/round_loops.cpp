@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "plane/loop_area.h"
 #include "plane/predicates.h"
+#include "slicer/contour/detail/planar_loops.h"
 
 namespace lamina::slicer {
 namespace {
@@ -25,8 +26,12 @@ constexpr double kMergeDistance = 2e-9;
 // hides nothing.
 constexpr double kTreeReach = 1.001;
 
-// Rounds of snapping before it counts as endless; two are usual.
-constexpr int kMostRounds = 64;
+// Rounds of snapping by the moving ray; two are usual. Then the last round
+// routes each edge on until no part of it meets a foreign hot pixel, and the
+// loops are linked without the ray. Where edges crowd, the ray takes the tips
+// of spikes for touches, event point by event point, and an edge may drift
+// through hundreds of hot pixels: rounds without end.
+constexpr int kMostRounds = 8;
 
 double to_float(double value) {
   // Adding 0 turns -0 to 0: equal points shall have equal bytes. In float32:
@@ -148,11 +153,16 @@ bool LoopRounder::touch(std::uint32_t vertex, std::uint32_t edge) const {
 void LoopRounder::snap(plane::Contours& contours) {
   const double scale = kUnit / spacing_;
   for (Vec2& point : contours.points) point *= scale;
-  int rounds = 0;
-  while (route_through_hot_pixels(contours)) {
+  int moves = 0;
+  for (int round = 0; route_through_hot_pixels(contours, round == kMostRounds);
+       ++round) {
     // Snapped for the first time, or edges met foreign cells.
-    LAMINA_CHECK_EQ(++rounds < kMostRounds, true);
-    most_moves_ = std::max(most_moves_, rounds);
+    moves += moves_of_round_;
+    most_moves_ = std::max(most_moves_, moves);
+    if (round == kMostRounds) {
+      link_planar_loops(contours);
+      break;
+    }
     resolver_.resolve(contours);
   }
   for (Vec2& point : contours.points) point = to_float(point / scale);
@@ -161,7 +171,10 @@ void LoopRounder::snap(plane::Contours& contours) {
 // Routes every edge through the hot pixels that it meets. Returns false where
 // all points are middles of hot pixels and no edge had to bend: then edges meet
 // in vertices only, or in a vertex that lies on an edge exactly.
-bool LoopRounder::route_through_hot_pixels(plane::Contours& contours) {
+//
+// goes_on  for the last time: then edges meet in vertices only
+bool LoopRounder::route_through_hot_pixels(plane::Contours& contours,
+                                           bool goes_on) {
   // Find the hot pixels.
   hot_pixels_.clear();
   bool is_changed = false;
@@ -180,12 +193,15 @@ bool LoopRounder::route_through_hot_pixels(plane::Contours& contours) {
   grid_.fill(hot_pixels_, members_);
 
   routed_.clear();
+  moves_of_round_ = 1;
   std::uint32_t begin = 0;
   for (const std::uint32_t end : contours.ends) {
     for (std::uint32_t from = begin; from < end; ++from) {
       const std::uint32_t to = from + 1 == end ? begin : from + 1;
       routed_.points.push_back(snapped[from]);
-      is_changed |= bends_edge(contours.points[from], contours.points[to]);
+      is_changed |=
+          goes_on ? routes_on(snapped[from], snapped[to])
+                  : bends_edge(contours.points[from], contours.points[to]);
     }
     routed_.ends.push_back(static_cast<std::uint32_t>(routed_.points.size()));
     begin = end;
@@ -197,6 +213,45 @@ bool LoopRounder::route_through_hot_pixels(plane::Contours& contours) {
 // Adds the hot pixels between the ends of an edge, in its order. Returns
 // whether one is off the edge.
 bool LoopRounder::bends_edge(Vec2 from, Vec2 to) {
+  const bool bends = find_passages(from, to);
+  for (const Passage& passage : passages_) {
+    routed_.points.push_back(passage.hot_pixel);
+  }
+  return bends;
+}
+
+// Does so with all parts of the edge as well, until they meet no foreign hot
+// pixel. The ends are middles of hot pixels.
+bool LoopRounder::routes_on(Vec2 from, Vec2 to) {
+  bool bends = false;
+  ways_.assign({{to, 1}});
+  while (!ways_.empty()) {
+    const Way way = ways_.back();
+    if (!find_passages(from, way.end)) {
+      // The hot pixels are on the edge: none is beside its parts.
+      for (const Passage& passage : passages_) {
+        routed_.points.push_back(passage.hot_pixel);
+      }
+      ways_.pop_back();
+      from = way.end;
+      if (!ways_.empty()) routed_.points.push_back(from);
+      continue;
+    }
+    bends = true;
+    // Each move leads to a hot pixel that the edge has not met.
+    LAMINA_CHECK_EQ(std::cmp_less_equal(way.moves, hot_pixels_.size()), true);
+    moves_of_round_ = std::max(moves_of_round_, way.moves);
+    ways_.back().moves = way.moves + 1;
+    for (std::size_t i = passages_.size(); i-- > 0;) {
+      ways_.push_back({passages_[i].hot_pixel, way.moves + 1});
+    }
+  }
+  return bends;
+}
+
+// Finds the hot pixels between the ends of an edge, in its order. Returns
+// whether one is off the edge.
+bool LoopRounder::find_passages(Vec2 from, Vec2 to) {
   passages_.clear();
   const Vec2 along = to - from;
   grid_.has_near(from, to, kUnit, [&](std::uint32_t i) {
@@ -209,12 +264,9 @@ bool LoopRounder::bends_edge(Vec2 from, Vec2 to) {
     return false;
   });
   std::ranges::sort(passages_, {}, &Passage::place);
-  bool bends = false;
-  for (const Passage& passage : passages_) {
-    routed_.points.push_back(passage.hot_pixel);
-    bends |= cross(along, passage.hot_pixel - from) != 0;
-  }
-  return bends;
+  return std::ranges::any_of(passages_, [&](const Passage& passage) {
+    return cross(along, passage.hot_pixel - from) != 0;
+  });
 }
 
 }  // namespace lamina::slicer

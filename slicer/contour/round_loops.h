@@ -14,7 +14,10 @@
 //    vertex, that it meets. This is repeated while an edge meets a foreign hot
 //    pixel (iterated snap rounding, Halperin and Packer 2002), so that edges
 //    meet in vertices only. The moving ray then leaves out what has fallen
-//    together. All that is on integers below 2^24, hence exact.
+//    together. All that is on integers below 2^24, hence exact. Where some
+//    rounds do not do, each edge is routed until none of its parts meets a
+//    foreign hot pixel, and loops are linked from what is left
+//    (detail/planar_loops.h).
 
 #include <cstdint>
 #include <utility>
@@ -55,8 +58,10 @@ class LoopRounder {
   bool is_safe_by_grid();
   bool touch(std::uint32_t vertex, std::uint32_t edge) const;
   void snap(plane::Contours& contours);
-  bool route_through_hot_pixels(plane::Contours& contours);
+  bool route_through_hot_pixels(plane::Contours& contours, bool goes_on);
   bool bends_edge(Vec2 from, Vec2 to);
+  bool routes_on(Vec2 from, Vec2 to);
+  bool find_passages(Vec2 from, Vec2 to);
 
   double spacing_ = 0;  // of float32 at the layer's largest coordinate [mm]
   // The points of the loops, each closed by a copy of its first point.
@@ -76,6 +81,13 @@ class LoopRounder {
     Vec2 hot_pixel = Vec2(0);
   };
   std::vector<Passage> passages_;
+  // A part of an edge that is still to be routed, and the moves that it takes.
+  struct Way {
+    Vec2 end = Vec2(0);
+    int moves = 0;
+  };
+  std::vector<Way> ways_;  // the next last
+  int moves_of_round_ = 1;
   plane::LoopResolver resolver_;
   bool has_snapped_ = false;  // the last layer
   std::uint64_t snapped_layers_ = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -159,6 +160,30 @@ TEST(RoundLoops, RandomScenesStaySimpleAndDisjoint) {
   std::cout << layers << " layers, " << rounder.snapped_layers()
             << " of them snapped\n";
   EXPECT_GT(rounder.snapped_layers(), 100U);
+}
+
+// A star around a hole of 0.01 mm: next to the hole its spikes are as near to
+// each other as float32 numbers. The moving ray alone took round after round.
+TEST(RoundLoops, SpikesThatCrowdAroundAHoleStaySimple) {
+  constexpr double kRadius = 50;
+  constexpr double kHole = 0.01;
+  for (const int corners : {2000, 32000}) {
+    const double step = 2 * std::numbers::pi / corners;
+    std::vector<Vec2> star;
+    for (int i = 0; i < corners; ++i) {
+      const double radius = i % 2 == 0 ? kRadius : kHole;
+      star.push_back(
+          {radius * std::cos(step * i), radius * std::sin(step * i)});
+    }
+    LoopRounder rounder;
+    plane::Contours result = loops({star});
+    rounder.round(result);
+    EXPECT_EQ(rounder.snapped_layers(), corners == 2000 ? 0U : 1U);
+    EXPECT_LT(rounder.most_moves(), 100);
+    EXPECT_TRUE(are_sound_floats(result)) << corners;
+    const double area = corners / 2.0 * kRadius * kHole * std::sin(step);
+    EXPECT_NEAR(support::total_area(result), area, 0.01 * area) << corners;
+  }
 }
 
 // More rings in rings than the tree of boxes can tell apart: the grid does.
