@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "plane/chains.h"
@@ -14,6 +15,10 @@ namespace {
 
 // Ends in one point may be on both sides of the event cluster.
 constexpr double kPinchDistance = 2 * kClusterWidth;
+
+// As many ends of one event point are compared with each other; more are
+// sorted. Where a thousand walls stand in the ray, all have ends there.
+constexpr std::size_t kFewEnds = 64;
 
 bool are_near(const Vec2& a, const Vec2& b, double distance) {
   return std::abs(a.x - b.x) < distance && std::abs(a.y - b.y) < distance;
@@ -30,6 +35,7 @@ double y_on_segment(const Vec2* segment, double x) {
 void Stitcher::begin() {
   arcs_.clear();
   ends_.clear();
+  keys_.clear();
   visits_.clear();
   place_count_ = 0;
   has_jumps_ = false;
@@ -73,10 +79,19 @@ void Stitcher::add_loop(std::span<const Vec2> lower,
   add(upper, number, static_cast<std::int8_t>(-side));
 }
 
-bool Stitcher::has_end_near(double y) const {
-  return std::any_of(ends_.begin(), ends_.end(), [y](const ArcEnd& end) {
-    return std::abs(end.key - y) < kPinchDistance;
-  });
+bool Stitcher::has_end_near(double y) {
+  const auto is_near = [y](double key) {
+    return std::abs(key - y) < kPinchDistance;
+  };
+  if (ends_.size() <= kFewEnds) {
+    return std::ranges::any_of(ends_, is_near, &ArcEnd::key);
+  }
+  for (std::size_t i = keys_.size(); i < ends_.size(); ++i) {
+    keys_.insert(ends_[i].key);
+  }
+  const auto above = keys_.lower_bound(y);
+  return (above != keys_.end() && is_near(*above)) ||
+         (above != keys_.begin() && is_near(*std::prev(above)));
 }
 
 // The order of y; among ends of one side that could tie, the order in which
@@ -93,6 +108,9 @@ bool Stitcher::is_lower(const ArcEnd& a, const ArcEnd& b) const {
 
 // Few ends, nearly sorted: insertion. Equal ends keep their order.
 void Stitcher::sort_ends() {
+  if (ends_.size() > kFewEnds) {
+    std::ranges::stable_sort(ends_, {}, &ArcEnd::key);
+  }
   for (std::size_t i = 1; i < ends_.size(); ++i) {
     const ArcEnd end = ends_[i];
     std::size_t k = i;
@@ -123,6 +141,7 @@ void Stitcher::link_ends() {
   waiting_.clear();
   has_linked_ = has_pinches_ = false;
   ends_.clear();
+  keys_.clear();
 }
 
 // Links an end to the one that waits, or lets it wait for the next opposite
@@ -172,6 +191,8 @@ void Stitcher::link(const ArcEnd& a, const ArcEnd& b) {
 
 // The places in which ends of several links lie.
 void Stitcher::list_visits() {
+  const auto y_of = [this](std::uint32_t arc) { return arcs_[arc].left.y; };
+  std::ranges::stable_sort(added_points_, {}, y_of);
   for (std::size_t i = 0, end = 0; i < ends_.size(); i = end) {
     bool is_pinch = false;
     for (end = i + 1;
@@ -180,11 +201,19 @@ void Stitcher::list_visits() {
          ++end) {
       is_pinch |= arc_before(ends_[end]) != arc_before(ends_[i]);
     }
-    for (const std::uint32_t arc : added_points_) {
-      if (!are_near(arcs_[arc].left, ends_[i].point, kPinchDistance)) continue;
-      visits_.push_back({arc, false, place_count_});
+    const Vec2& point = ends_[i].point;
+    const std::size_t visits_before = visits_.size();
+    for (auto arc = std::ranges::lower_bound(
+             added_points_, point.y - kPinchDistance, {}, y_of);
+         arc != added_points_.end() && y_of(*arc) < point.y + kPinchDistance;
+         ++arc) {
+      if (!are_near(arcs_[*arc].left, point, kPinchDistance)) continue;
+      visits_.push_back({*arc, false, place_count_});
       is_pinch = true;
     }
+    std::ranges::sort(
+        visits_.begin() + static_cast<std::ptrdiff_t>(visits_before),
+        visits_.end(), {}, &Visit::arc);
     if (!is_pinch) continue;
     for (std::size_t k = i; k < end; ++k) {
       visits_.push_back({ends_[k].arc, ends_[k].is_head, place_count_});

@@ -19,6 +19,7 @@
 // exchanging partners makes two loops of it.
 
 #include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -59,7 +60,7 @@ class Stitcher {
 
   bool has_ends() const { return !ends_.empty(); }
   // Whether an end at this event point is so near to y as to be one with it.
-  bool has_end_near(double y) const;
+  bool has_end_near(double y);
 
   // Links the ends of one event point.
   void link_ends();
@@ -121,6 +122,7 @@ class Stitcher {
   bool has_jumps_ = false;
   std::vector<BoundaryArc> arcs_;
   std::vector<ArcEnd> ends_;
+  std::multiset<double> keys_;   // of the first ends, where they are many
   std::vector<ArcEnd> waiting_;  // without partner, the lowest first
   // At the present event point: whether two pairs met in a point, whether a
   // pair was linked, the upper end of the last one, and the lower end of the

@@ -1,5 +1,6 @@
 #include "plane/sweep/stitcher.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -84,6 +85,24 @@ TEST(Stitcher, MakesTwoLoopsOfSquaresThatTouchInAPoint) {
   ASSERT_EQ(contours.loop_count(), 2U);
   EXPECT_EQ(signed_area(contours.loop(0)), 4);
   EXPECT_EQ(signed_area(contours.loop(1)), 4);
+}
+
+// Squares to the left and to the right of one x, in turn: each touches the next
+// one in a corner there. All their ends are those of one event point.
+TEST(Stitcher, MakesALoopOfEachOfManySquaresThatTouchAtOneX) {
+  for (const int count : {2, 3, 10, 100, 20'000}) {
+    std::vector<BoundaryChain> chains;
+    for (int i = 0; i < count; ++i) {
+      const double left = i % 2 == 0 ? 0 : 1;
+      chains.push_back({{{left, i}, {left + 1, i}}, 1});
+      chains.push_back({{{left, i + 1}, {left + 1, i + 1}}, -1});
+    }
+    const Contours contours = stitched(chains, {0, 1, 2});
+    ASSERT_EQ(contours.loop_count(), static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      EXPECT_EQ(signed_area(contours.loop(i)), 1) << i;
+    }
+  }
 }
 
 TEST(Stitcher, AddsLoneLoopsAsTheyAre) {
