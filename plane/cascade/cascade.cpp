@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "plane/cascade/crossing_sample.h"
+#include "plane/cascade/difference_levels.h"
 
 namespace lamina::plane {
 namespace {
@@ -39,6 +40,9 @@ constexpr double kMostWithin = 0.7;
 // cover, all leaves stay.
 constexpr double kMostUncovered = 0.8;
 
+// Differences in each other are parted level by level where they are so many.
+constexpr std::size_t kFewestLevels = 8;
+
 // Whether half of the chains belong to one leaf, which cannot be parted.
 bool is_mostly_one_leaf(std::span<const Chain> chains) {
   std::size_t longest = 0;
@@ -52,6 +56,50 @@ bool is_mostly_one_leaf(std::span<const Chain> chains) {
 }
 
 }  // namespace
+
+// The chains that a part of the program has of a layer.
+struct Cascade::Chains {
+  std::vector<Chain> chains;
+  std::vector<ChainLoop> loops;
+
+  void add(const ChainLoop& loop, std::span<const Chain> of_loop,
+           std::uint32_t operand) {
+    loops.push_back(loop);
+    for (const Chain& chain : of_loop) {
+      chains.push_back(chain);
+      chains.back().operand = operand;
+    }
+  }
+};
+
+// A run of levels in a layer; valid while nothing is swept.
+struct Cascade::Run {
+  const Contours* result = nullptr;
+  const Contours* all = nullptr;  // the part that lies in all levels
+  bool is_kept = false;           // both are those of the layer before
+};
+
+// The levels of A - U - (B - V - (C - ...)): A without U, B without V, and so
+// on. Where a place lies in the first k levels and not in the next one, it is
+// in the result if k is odd. So two runs of levels, each with its result and
+// the part that lies in all of its levels, make one.
+struct Cascade::Levels {
+  explicit Levels(DifferenceLevels levels);
+  ~Levels();
+  Levels(Levels&&) = delete;
+  Levels& operator=(Levels&&) = delete;
+
+  // Two runs that were made one; the levels of the second begin at its number.
+  struct Joined {
+    Contours result;
+    Contours all;
+    bool is_made = false;
+  };
+
+  const DifferenceLevels split;
+  std::vector<std::unique_ptr<Group>> groups;
+  std::vector<Joined> runs;
+};
 
 // A Boolean of the cascade: the whole program, or some operands of one operator
 // of it.
@@ -70,12 +118,11 @@ class Cascade::Group {
   BooleanOp op() const { return program_.nodes[0].op; }
   Group& half(std::size_t i) { return *halves_[i]; }
 
-  struct Chains {
-    std::vector<Chain> chains;
-    std::vector<ChainLoop> loops;
-  };
   // The chains of each half, with the numbers that operands have there.
   std::array<Chains, 2> chains_of_halves(const LayerChains& layer) const;
+
+  // Differences in each other, level by level; null where they are few.
+  Levels* levels();
 
   // Keeps the contours of the layer; those of the layer kept last, or null
   // where that had other chains.
@@ -106,6 +153,8 @@ class Cascade::Group {
   const BooleanProgram& program_;
   ProgramStates states_;
   bool may_part_ = true;
+  bool may_have_levels_ = true;
+  std::unique_ptr<Levels> levels_;
   std::array<BooleanProgram, 2> half_programs_;
   std::array<std::unique_ptr<Group>, 2> halves_;
   // An operand: its half, and its number there.
@@ -120,6 +169,9 @@ std::uint64_t Cascade::Group::states_met() const {
   std::uint64_t sum = states_.states_met();
   for (const auto& half : halves_) {
     if (half != nullptr) sum += half->states_met();
+  }
+  if (levels_ != nullptr) {
+    for (const auto& group : levels_->groups) sum += group->states_met();
   }
   return sum;
 }
@@ -233,18 +285,14 @@ void Cascade::Group::make_halves(const std::vector<Child>& children) {
   }
 }
 
-std::array<Cascade::Group::Chains, 2> Cascade::Group::chains_of_halves(
+std::array<Cascade::Chains, 2> Cascade::Group::chains_of_halves(
     const LayerChains& layer) const {
   std::array<Chains, 2> halves;
   auto chain = layer.chains.begin();
   for (const ChainLoop& loop : layer.loops) {
     const auto [is_second, number] = places_[chain->operand];
-    Chains& half = halves[is_second ? 1 : 0];
-    half.loops.push_back(loop);
-    for (std::uint32_t i = 0; i < loop.chain_count; ++i) {
-      half.chains.push_back(*chain++);
-      half.chains.back().operand = number;
-    }
+    halves[is_second ? 1 : 0].add(loop, {chain, loop.chain_count}, number);
+    chain += loop.chain_count;
   }
   return halves;
 }
@@ -276,6 +324,26 @@ const Contours* Cascade::Group::find_kept(const LayerChains& layer) const {
   return std::ranges::equal(layer.chains, kept_chains_.chains, is_kept)
              ? &kept_contours_
              : nullptr;
+}
+
+Cascade::Levels::Levels(DifferenceLevels levels)
+    : split(std::move(levels)), runs(split.programs.size()) {
+  for (const BooleanProgram& program : split.programs) {
+    groups.push_back(std::make_unique<Group>(program));
+  }
+}
+
+Cascade::Levels::~Levels() = default;
+
+Cascade::Levels* Cascade::Group::levels() {
+  if (may_have_levels_) {
+    may_have_levels_ = false;
+    DifferenceLevels levels = difference_levels(program_);
+    if (levels.programs.size() >= kFewestLevels) {
+      levels_ = std::make_unique<Levels>(std::move(levels));
+    }
+  }
+  return levels_.get();
 }
 
 Cascade::Cascade(const BooleanProgram& program, const SweepOptions& options,
@@ -365,6 +433,10 @@ Patience Cascade::patience_for(Group& group, const LayerChains& layer) const {
 
 void Cascade::sweep_halves(Group& group, const LayerChains& layer,
                            double expected_swaps, Contours& contours) {
+  if (Levels* levels = group.levels()) {
+    sweep_levels(*levels, layer, contours);
+    return;
+  }
   if (!group.part()) {
     sweep_at_once(group.states(), layer, contours, {});
     return;
@@ -378,9 +450,54 @@ void Cascade::sweep_halves(Group& group, const LayerChains& layer,
     sweep_half(group.half(i), half, share * expected_swaps,
                i == 0 ? contours : second);
   }
-  auto& states = merges_[static_cast<std::size_t>(group.op())];
-  if (!states) states.emplace(program_of(group.op(), 2), FillRule::kNonZero);
-  merge(*states, second, contours);
+  merge(group.op(), second, contours);
+}
+
+void Cascade::sweep_levels(Levels& levels, const LayerChains& layer,
+                           Contours& contours) {
+  std::vector<Chains> chains(levels.groups.size());
+  auto chain = layer.chains.begin();
+  for (const ChainLoop& loop : layer.loops) {
+    const auto [level, number] = levels.split.places[chain->operand];
+    chains[level].add(loop, {chain, loop.chain_count}, number);
+    chain += loop.chain_count;
+  }
+  contours = *sweep_run(levels, layer.points, chains, 0, false).result;
+}
+
+// Sweeps the levels from `begin` on, as many as there are chains of.
+Cascade::Run Cascade::sweep_run(Levels& levels, std::span<const Vec2> points,
+                                std::span<const Chains> chains,
+                                std::size_t begin, bool needs_all) {
+  if (chains.size() == 1) {
+    Group& group = *levels.groups[begin];
+    const LayerChains layer{points, chains[0].chains, chains[0].loops};
+    const bool is_kept = group.find_kept(layer) != nullptr;
+    Contours contours;
+    if (!is_kept) sweep_half(group, layer, 0, contours);
+    const Contours* kept = group.find_kept(layer);
+    return {kept, kept, is_kept};
+  }
+  const std::size_t half = chains.size() / 2;
+  const Run first = sweep_run(levels, points, chains.first(half), begin, true);
+  const Run second =
+      sweep_run(levels, points, chains.subspan(half), begin + half, needs_all);
+  Levels::Joined& joined = levels.runs[begin + half];
+  const bool is_kept = joined.is_made && first.is_kept && second.is_kept;
+  if (!is_kept) {
+    // Where all of the first levels are, the second ones decide.
+    Contours below = *first.all;
+    merge(BooleanOp::kIntersection, *second.result, below);
+    joined.result = *first.result;
+    merge(half % 2 == 0 ? BooleanOp::kUnion : BooleanOp::kDifference, below,
+          joined.result);
+    if (needs_all) {
+      joined.all = *first.all;
+      merge(BooleanOp::kIntersection, *second.all, joined.all);
+    }
+    joined.is_made = true;
+  }
+  return {&joined.result, &joined.all, is_kept};
 }
 
 // A half often has the chains that it had in the layer before, as where only
@@ -417,8 +534,9 @@ bool Cascade::resume(Contours& contours, const Patience& patience) {
   return true;
 }
 
-void Cascade::merge(ProgramStates& states, const Contours& second,
-                    Contours& contours) {
+void Cascade::merge(BooleanOp op, const Contours& second, Contours& contours) {
+  auto& states = merges_[static_cast<std::size_t>(op)];
+  if (!states) states.emplace(program_of(op, 2), FillRule::kNonZero);
   builder_.begin(block_);
   std::uint32_t number = 0;
   for (const Contours* operand : {&std::as_const(contours), &second}) {
@@ -430,7 +548,7 @@ void Cascade::merge(ProgramStates& states, const Contours& second,
     ++number;
   }
   builder_.finish(block_);
-  sweep_at_once(states, block_.chains_of(0), contours, {});
+  sweep_at_once(*states, block_.chains_of(0), contours, {});
 }
 
 SweepCounts Cascade::counts() const {

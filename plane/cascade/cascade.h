@@ -8,6 +8,11 @@
 // operands of one more sweep. What is hidden within a group is gone before the
 // groups meet, and the cost falls from n·k towards n·log n.
 //
+// Differences in each other, A - (B - (C - ...)), are parted level by level.
+// Where a place is in the first k levels and not in the next one, it is in the
+// result if k is odd. So a run of levels is two contours, the result and what
+// lies in all of the levels, and two runs make one (decision 65).
+//
 // Where leaves reach far beyond the places where they can matter, they are
 // clipped first (chain_clipper.h): crossings there are hidden as well. Leaves
 // that lie within others are left out (covered_leaves.h). A layer that has few
@@ -21,9 +26,11 @@
 // (ray_sweep.h) holds for edges whose ends are such points.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "plane/cascade/chain_clipper.h"
@@ -57,6 +64,9 @@ class Cascade {
 
  private:
   class Group;
+  struct Chains;
+  struct Levels;
+  struct Run;
 
   void clip_and_sweep(const LayerChains& layer, Contours& contours);
   void uncover_and_sweep(const LayerChains& layer, Contours& contours);
@@ -71,8 +81,13 @@ class Cascade {
   bool sweep_at_once(ProgramStates& states, const LayerChains& layer,
                      Contours& contours, const Patience& patience);
   bool resume(Contours& contours, const Patience& patience);
+  void sweep_levels(Levels& levels, const LayerChains& layer,
+                    Contours& contours);
+  Run sweep_run(Levels& levels, std::span<const Vec2> points,
+                std::span<const Chains> chains, std::size_t begin,
+                bool needs_all);
   // Replaces `contours` by an operator over them and `second`.
-  void merge(ProgramStates& states, const Contours& second, Contours& contours);
+  void merge(BooleanOp op, const Contours& second, Contours& contours);
 
   const SweepOptions options_;
   const double patience_;

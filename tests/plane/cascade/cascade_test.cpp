@@ -135,6 +135,52 @@ TEST(Cascade, DifferencesInEachOtherAreRings) {
   }
 }
 
+// Turned squares in each other, of which every third is lower than the others
+// and every fifth level subtracts a bar through all of them.
+csg::Scene barred_squares(int count) {
+  SceneBuilder builder(BooleanOp::kDifference);
+  for (int i = 0; i < count; ++i) {
+    const double size = 20 + 0.1 * (count - i);
+    builder.add(testing::cube_leaf({size, size, i % 3 == 0 ? 1.0 : 2.0}),
+                testing::rotated(0.7 * i, {0, 0, 1}) *
+                    testing::translated({-size / 2, -size / 2, 0}));
+    if (i % 5 == 0) {
+      builder.add(testing::cube_leaf({60, 0.3, 2}),
+                  testing::rotated(11.0 * i, {0, 0, 1}) *
+                      testing::translated({-30, 0.1 * i, 0}));
+    }
+    if (i + 1 < count) builder.begin(BooleanOp::kDifference);
+  }
+  for (int i = 0; i + 1 < count; ++i) builder.end();
+  return builder.finish();
+}
+
+TEST(Cascade, PartsDifferencesInEachOtherLayerByLayer) {
+  const csg::Scene scene = barred_squares(41);
+  const std::vector<double> heights = {0.2, 0.5, 1.2, 1.6};
+  const Swept whole = sweep(scene, kPatient, heights);
+  const Swept cascaded = sweep(scene, 0, heights);
+  for (std::size_t l = 0; l < heights.size(); ++l) {
+    expect_no_defect(cascaded.layers[l]);
+    EXPECT_EQ(support::count_loops(cascaded.layers[l]),
+              support::count_loops(whole.layers[l]));
+    EXPECT_NEAR(support::total_area(cascaded.layers[l]),
+                support::total_area(whole.layers[l]), 1e-7);
+  }
+  // Upright walls.
+  EXPECT_EQ(cascaded.layers[0], cascaded.layers[1]);
+  EXPECT_EQ(cascaded.layers[2], cascaded.layers[3]);
+}
+
+// Every two squares cross eight times, but few of these crossings show.
+TEST(Cascade, TwiceTheDifferencesInEachOtherAreNotFourTimesTheEvents) {
+  const auto event_points = [](int count) {
+    return sweep(nested_squares(count, 0.7, {BooleanOp::kDifference}), 1)
+        .counts.event_points;
+  };
+  EXPECT_LT(event_points(800), 2.6 * static_cast<double>(event_points(400)));
+}
+
 TEST(Cascade, ChangesNoRegion) {
   for (const csg::Scene& scene : {star(60), frames(60)}) {
     expect_no_change_by_cascading(scene);
