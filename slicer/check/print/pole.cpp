@@ -27,8 +27,8 @@ constexpr std::size_t kMostSquares = 1000;
 // twice the area over the perimeter. Squares as small as the width are so many
 // that few of them are looked at: some, and some for each point.
 constexpr double kSlender = 50;
-constexpr std::size_t kSquares = 64;
-constexpr std::size_t kSquaresPerPoint = 8;
+constexpr std::size_t kSquares = 16;
+constexpr std::size_t kSquaresPerPoint = 4;
 
 // Chords across a slender region.
 constexpr std::size_t kChords = 16;
