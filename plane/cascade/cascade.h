@@ -11,7 +11,7 @@
 // Differences in each other, A - (B - (C - ...)), are parted level by level.
 // Where a place is in the first k levels and not in the next one, it is in the
 // result if k is odd. So a run of levels is two contours, the result and what
-// lies in all of the levels, and two runs make one (decision 65).
+// lies in all of the levels, and two runs make one (decision 69).
 //
 // Where leaves reach far beyond the places where they can matter, they are
 // clipped first (chain_clipper.h): crossings there are hidden as well. Leaves
