@@ -31,7 +31,8 @@ constexpr std::string_view kStyle =
     ".view{position:relative}.view img{width:100%;display:block}"
     ".view svg{position:absolute;inset:0;width:100%;height:100%}"
     ".view p{text-align:center;margin:0;color:#555}"
-    ".columns{display:grid;grid-template-columns:1fr 1fr;gap:0 8mm}"
+    ".columns{display:grid;grid-template-columns:1fr 1fr;gap:0 "
+    "8mm;align-items:start}"
     "@media(max-width:600px){.columns{grid-template-columns:1fr}}"
     "table{border-collapse:collapse;width:100%}td,th{text-align:left;padding:"
     ".12em .5em .12em 0;border-bottom:1px solid #ddd;vertical-align:top}"
@@ -192,6 +193,17 @@ std::string feeding_of(const compiler::Preflight& found,
   return text + "</table></div>\n" + more_of(found.unfed.size());
 }
 
+std::string verdict_of(const compiler::Preflight& found) {
+  const std::string faults = fault_text(found);
+  std::string text = faults.empty() ? "Nothing is thinner than the metal allows"
+                                    : "Not ready: " + faults;
+  if (!found.unfed.empty()) {
+    text += fmt::format("; metal reaches {} through thinner ones only",
+                        counted(found.unfed.size(), "heavy place"));
+  }
+  return text;
+}
+
 std::string parameters_of(const compiler::Preflight& found) {
   if (found.parameters.empty()) return "";
   std::string text = "<h2>Parameters</h2><div class=\"columns\">";
@@ -260,16 +272,14 @@ std::string preflight_page(const compiler::Preflight& found,
   const std::string name =
       escape_html(std::filesystem::path(design).filename().string());
   const std::string folder = folder_of(design);
-  const std::string faults = fault_text(found);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
       "name=\"viewport\" content=\"width=device-width\"><title>{0}</title>"
       "<style>{1}</style></head><body>\n<h1>{0}</h1><p>To be cast in {2}: "
       "{3:.2f} g</p>\n<p class=\"verdict {4}\">{5}</p>\n<div class=\"views\">",
       name, kStyle, escape_html(found.metal.title),
-      found.metal.weight(found.volume), faults.empty() ? "good" : "bad",
-      faults.empty() ? "Nothing is thinner than the metal allows"
-                     : "Not ready: " + faults);
+      found.metal.weight(found.volume), found.too_thin.empty() ? "good" : "bad",
+      verdict_of(found));
   for (const View& view : kViews) page += picture_of(found, view);
   page += "</div>\n<div class=\"columns\"><div><h2>Measures</h2>" +
           facts_of(found) + "</div><div><h2>Weights</h2>" + weights_of(found) +

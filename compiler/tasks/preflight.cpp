@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -14,6 +16,7 @@
 #include "compiler/validate.h"
 #include "csg/boundary/move_scene.h"
 #include "plane/loop_area.h"
+#include "plane/predicates.h"
 #include "slicer/check/print/pole.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/plan/orientation.h"
@@ -60,17 +63,11 @@ slicer::Material metal_of(const Machine& machine) {
   return *metal;
 }
 
-double distance_to(const plane::Contours& contours, Vec2 place) {
+double distance_to(std::span<const Vec2> loop, Vec2 place) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const auto loop = contours.loop(i);
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Vec2 from = loop[k];
-      const Vec2 along = loop[(k + 1) % loop.size()] - from;
-      const double share = std::clamp(
-          glm::dot(place - from, along) / glm::dot(along, along), 0.0, 1.0);
-      least = std::min(least, glm::length(from + share * along - place));
-    }
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    least = std::min(least, distance_to_segment(place, loop[i],
+                                                loop[(i + 1) % loop.size()]));
   }
   return least;
 }
@@ -81,13 +78,13 @@ double circle_in(std::span<const Vec2> hole) {
   plane::Contours around;
   around.add_loop(std::vector<Vec2>(hole.rbegin(), hole.rend()));
   Vec2 middle = slicer::pole_of(around);
-  double radius = distance_to(around, middle);
+  double radius = distance_to(hole, middle);
   for (double step = radius / 4; step > 1e-5;) {
     bool has_grown = false;
     const Vec2 here = middle;
     for (int i = 0; i < 9; ++i) {
       const Vec2 place = here + step * Vec2(i % 3 - 1, i / 3 - 1);
-      const double distance = distance_to(around, place);
+      const double distance = distance_to(hole, place);
       if (distance <= radius) continue;
       radius = distance;
       middle = place;

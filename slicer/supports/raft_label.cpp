@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "plane/predicates.h"
 #include "plane/region/region.h"
 
 namespace lamina::slicer {
@@ -91,13 +92,9 @@ class Finder {
   static double distance_to_edges(Vec2 p, const std::vector<Vec2>& points) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vec2 a = points[i];
-      const Vec2 edge = points[(i + 1) % points.size()] - a;
-      const double length2 = glm::dot(edge, edge);
-      const double t =
-          length2 > 0 ? std::clamp(glm::dot(p - a, edge) / length2, 0.0, 1.0)
-                      : 0;
-      least = std::min(least, glm::length(p - (a + t * edge)));
+      least = std::min(
+          least,
+          distance_to_segment(p, points[i], points[(i + 1) % points.size()]));
     }
     return least;
   }
