@@ -137,27 +137,31 @@ class PreflightCommand : public Command {
     std::string text = fmt::format("{} ({}):\n", fault_text(found), least);
     for (std::size_t i = 0; i < found.too_thin.size() && i < kMostRows; ++i) {
       const compiler::TooThin& one = found.too_thin[i];
-      text += fmt::format(
-          "  {} of {:.2f} mm, {:.2f} mm², at {:.2f}, {:.2f}, {:.2f}: {}\n",
-          kind_of(one), one.place.width, one.place.area, one.place.place.x,
-          one.place.place.y, one.place.place.z, compiler::text_of(one.lines));
+      text += fmt::format("  {} of {:.2f} mm, {:.2f} mm², at {}: {}\n",
+                          kind_of(one), one.place.width, one.place.area,
+                          place_text(one.place.place),
+                          compiler::text_of(one.lines));
     }
     return text + rest_text(found.too_thin.size());
   }
 
   static std::string feeding_text(const compiler::Preflight& found) {
+    std::string gates;
+    for (const slicer::Gate& gate : found.gates) {
+      gates += (gates.empty() ? "" : " and ") + place_text(gate.place);
+    }
     if (found.unfed.empty()) {
-      return "metal reaches all heavy places through places as thick\n";
+      return fmt::format(
+          "metal from {} reaches all heavy places through places as thick\n",
+          gates);
     }
     std::string text =
-        fmt::format("metal reaches {} through thinner ones only:\n",
-                    counted(found.unfed.size(), "heavy place"));
+        fmt::format("metal from {} reaches {} through thinner ones only:\n",
+                    gates, counted(found.unfed.size(), "heavy place"));
     for (std::size_t i = 0; i < found.unfed.size() && i < kMostRows; ++i) {
       const auto& [pool, lines] = found.unfed[i];
-      text +=
-          fmt::format("  {:.2f} mm, {:.1f} mm³, at {:.2f}, {:.2f}, {:.2f}, ",
-                      pool.thickness, pool.volume, pool.place.x, pool.place.y,
-                      pool.place.z);
+      text += fmt::format("  {:.2f} mm, {:.1f} mm³, at {}, ", pool.thickness,
+                          pool.volume, place_text(pool.place));
       text += pool.neck_thickness > 0
                   ? fmt::format("through {:.2f} mm: {}\n", pool.neck_thickness,
                                 compiler::text_of(lines))

@@ -47,12 +47,6 @@ constexpr std::array<View, 3> kViews = {{{"from the front", Vec3(90, 0, 0)},
                                          {"from the right", Vec3(90, 0, 90)},
                                          {"from above", Vec3(0, 0, 0)}}};
 
-std::string place_text(Vec3 place) {
-  // No "-0.00".
-  const Vec3 rounded = glm::round(place * 100.0) / 100.0 + 0.0;
-  return fmt::format("{:.2f}, {:.2f}, {:.2f}", rounded.x, rounded.y, rounded.z);
-}
-
 // Marks of findings in a picture, where the camera shows their places.
 class Marks {
  public:
@@ -228,6 +222,12 @@ std::string letter_of(std::size_t index) {
     letters.insert(letters.begin(), static_cast<char>('A' + (left - 1) % 26));
   }
   return letters;
+}
+
+std::string place_text(Vec3 place) {
+  // No "-0.00".
+  const Vec3 rounded = glm::round(place * 100.0) / 100.0 + 0.0;
+  return fmt::format("{:.2f}, {:.2f}, {:.2f}", rounded.x, rounded.y, rounded.z);
 }
 
 std::string ring_size_text(double diameter) {

@@ -10,6 +10,9 @@ namespace lamina::cli {
 // "A", "B", …, "Z", "AA": what pictures and lists call heavy places.
 std::string letter_of(std::size_t index);
 
+// "1.50, 0.00, 21.32": as lists have a place.
+std::string place_text(Vec3 place);
+
 // "EU 54.5, US 7": what sizes an inner diameter [mm] is.
 std::string ring_size_text(double diameter);
 
