@@ -144,7 +144,10 @@ class Inspector {
                            : is_wire    ? limits.wire
                                         : limits.wall;
       if (place.width >= kLetPass * least) continue;
-      if (place.area < least * least) continue;
+      if (is_wire ? glm::length(place.box.size()) < least
+                  : place.area < least * least) {
+        continue;
+      }
       if (place.shape == slicer::ThinShape::kEdge) {
         if (!place.is_gap) ++found_.edges;
         continue;

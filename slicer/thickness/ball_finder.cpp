@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -14,6 +15,9 @@ namespace {
 // A ball has stopped where it would shrink by less than this share of its
 // radius: rounding may go so far.
 constexpr double kSameRadius = 1e-9;
+
+// How exactly climbing finds the centre of a ball, as a share of its reach.
+constexpr double kClimbed = 0.01;
 
 // What nanoflann asks of points.
 struct Cloud {
@@ -118,6 +122,32 @@ Ball BallFinder::grow(Vec3 touch, Vec3 direction, double most) const {
     ball.stop = inside->point;
     ball.angle =
         2 * std::asin(std::min(glm::length(chord) / (2 * radius), 1.0));
+  }
+  return ball;
+}
+
+Ball BallFinder::climb(Vec3 place, double reach) const {
+  Ball ball = {place};
+  const auto try_centre = [&](Vec3 centre) {
+    const auto touched = nearest(centre, std::numeric_limits<double>::max());
+    if (!touched || touched->distance <= ball.radius) return false;
+    ball.centre = centre;
+    ball.radius = touched->distance;
+    return true;
+  };
+  try_centre(place);
+  reach = std::min(reach, ball.radius / 2);
+  double step = reach / 2;
+  while (step > kClimbed * reach) {
+    const Vec3 here = ball.centre;
+    bool has_grown = false;
+    for (int i = 0; i < 27; ++i) {
+      const Vec3 centre =
+          here + step * Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (glm::length(centre - place) > reach) continue;
+      has_grown |= try_centre(centre);
+    }
+    if (!has_grown) step /= 2;
   }
   return ball;
 }

@@ -60,6 +60,12 @@ class BallFinder {
   // most  greatest radius [mm]
   Ball grow(Vec3 touch, Vec3 direction, double most) const;
 
+  // Returns the largest ball whose centre is within `reach` [mm] of a place,
+  // and can be found uphill from there: in steps that shrink to a hundredth of
+  // the reach. No farther than half the ball around the place is wide, so that
+  // it stays on its side of the surface.
+  Ball climb(Vec3 place, double reach) const;
+
  private:
   struct Tree;
   std::span<const SurfacePoint> points_;

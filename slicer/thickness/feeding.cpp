@@ -24,9 +24,6 @@ constexpr double kFirstDoubt = 0.02;
 // A cell on the surface itself has a ball all the same [mm].
 constexpr double kLeastRadius = 1e-9;
 
-// How exactly the middle of the largest ball of a pool is found [pitches].
-constexpr double kClimbed = 0.02;
-
 // Cells that one task takes.
 constexpr std::size_t kCellsPerTask = 1 << 14;
 
@@ -47,31 +44,6 @@ void for_each_cell(std::size_t count, const Body& body) {
           body(static_cast<std::uint32_t>(i));
         }
       });
-}
-
-// Moves the middle of a pool's largest ball from that of a cell to where the
-// ball is largest: uphill, in steps that shrink from a pitch on. Steps are
-// shorter than the ball's radius, so none leads out of the solid.
-void climb(const BallFinder& balls, double pitch, Pool& pool) {
-  double radius = 0;
-  const auto try_place = [&](Vec3 place) {
-    const auto nearest = balls.nearest(place, pool.thickness + pitch);
-    if (!nearest || nearest->distance <= radius) return false;
-    radius = nearest->distance;
-    pool.place = place;
-    return true;
-  };
-  try_place(pool.place);
-  for (double step = std::min(pitch, radius / 2); step > kClimbed * pitch;) {
-    const Vec3 here = pool.place;
-    bool has_risen = false;
-    for (int i = 0; i < 27; ++i) {
-      has_risen |=
-          try_place(here + step * Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-    }
-    if (!has_risen) step /= 2;
-  }
-  pool.thickness = std::max(pool.thickness, 2 * radius);
 }
 
 // Sinks the height from the highest summit to the surface.
@@ -295,7 +267,11 @@ std::vector<Pool> find_pools(const SolidSamples& samples,
   Flood flood(samples, field);
   for (const Gate& gate : gates) flood.add_gate(gate);
   std::vector<Pool> pools = flood.run();
-  for (Pool& pool : pools) climb(balls, samples.pitch, pool);
+  for (Pool& pool : pools) {
+    const Ball ball = balls.climb(pool.place, 2 * samples.pitch);
+    pool.place = ball.centre;
+    pool.thickness = std::max(pool.thickness, 2 * ball.radius);
+  }
   return pools;
 }
 

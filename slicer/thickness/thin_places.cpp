@@ -14,7 +14,6 @@
 
 #include "base/parallel.h"
 #include "base/union_find.h"
-#include "slicer/check/thin/facing_cells.h"
 
 namespace lamina::slicer {
 namespace {
@@ -27,14 +26,16 @@ constexpr double kJoined = 2 * kCover;
 constexpr std::size_t kPointsPerTask = 1 << 12;
 
 // A ball that touches two sides is empty where no point is within this share of
-// its radius: facets of a wire, down to those of a prong of eight sides, bend
-// towards the ball that touches the middle of one of them.
-constexpr double kEmptyShare = 0.9;
+// its radius: facets of a wire, down to those of a prong of five sides, bend
+// into the ball that touches one of them beside its middle.
+constexpr double kEmptyShare = 0.75;
 
-// Sides face each other as in a layer: where the ball touches them they are at
-// least 180° - kFacingAngle apart, and so are their normals.
-const double kLeastSine = std::cos(kFacingAngle / 2);
-const double kLeastCosine = std::cos(kFacingAngle);
+// How far sides that face each other may deviate from opposite directions
+// [rad]: 40°. A little more than in a layer (kFacingAngle), so that facets of a
+// prong of five sides do, 36° from opposite: OpenSCAD makes thin cylinders so.
+constexpr double kSpaceFacingAngle = 0.6981317007977318;
+const double kLeastSine = std::cos(kSpaceFacingAngle / 2);
+const double kLeastCosine = std::cos(kSpaceFacingAngle);
 
 // A place tapers to an edge where its thinnest ball is thinner than this share
 // of its middle one.
@@ -124,8 +125,10 @@ class ThinBalls {
 // The balls on one side of the surface, and what hangs together.
 class ThinSide {
  public:
-  ThinSide(const SolidSamples& samples, std::vector<ThinBall> thin)
+  ThinSide(const SolidSamples& samples, const BallFinder& balls,
+           std::vector<ThinBall> thin)
       : samples_(samples),
+        balls_(balls),
         thin_(std::move(thin)),
         middles_(middles_of(thin_)),
         near_(middles_),
@@ -183,6 +186,13 @@ class ThinSide {
       place.shape = ThinShape::kEdge;
     } else if (is_line(middle)) {
       place.shape = ThinShape::kWire;
+      // Towards its axis, from the middle of a ball beside it; once more, as a
+      // small ball does not go far.
+      const double reach = ball.radius / 2;
+      const Ball inscribed =
+          balls_.climb(balls_.climb(ball.centre, reach).centre, reach);
+      place.place = inscribed.centre;
+      place.width = 2 * inscribed.radius;
     }
     return place;
   }
@@ -213,6 +223,7 @@ class ThinSide {
   }
 
   const SolidSamples& samples_;
+  const BallFinder& balls_;
   const std::vector<ThinBall> thin_;
   const std::vector<SurfacePoint> middles_;
   const BallFinder near_;
@@ -225,10 +236,13 @@ std::vector<ThinPlace> find_thin_places(const SolidSamples& samples,
                                         const BallFinder& balls, double width) {
   std::vector<ThinPlace> places;
   for (const bool is_gap : {false, true}) {
-    ThinSide(samples,
+    ThinSide(samples, balls,
              ThinBalls(samples, balls, width, is_gap ? 1.0 : -1.0).find())
         .add_places(is_gap, places);
   }
+  // Wires may be thicker than the balls beside their axes.
+  std::erase_if(places,
+                [&](const ThinPlace& place) { return place.width > width; });
   std::stable_sort(
       places.begin(), places.end(),
       [](const ThinPlace& a, const ThinPlace& b) { return a.width < b.width; });

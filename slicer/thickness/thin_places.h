@@ -5,8 +5,8 @@
 // (slicer/check/thin). A plate that lies flat is not thin in any layer, and a
 // wall that leans is thinner than its layers show. Here a place is thin where
 // the largest ball that touches the surface is thinner than a width and touches
-// two sides that face each other, as disks do there (kFacingAngle): so an edge
-// of 90° is not thin, however small the balls in it.
+// two sides that face each other, as disks do there: so an edge of 90° is not
+// thin, however small the balls in it.
 
 #include <array>
 #include <cstdint>

@@ -52,7 +52,7 @@ double climb(const csg::Mesh& surface, Vec3 place, double step) {
     }
     const std::vector<double> distances = distances_from(surface, around);
     const auto best = std::max_element(distances.begin(), distances.end());
-    if (*best > greatest) {
+    if (*best > greatest + kRounding * step) {
       greatest = *best;
       place = around[static_cast<std::size_t>(best - distances.begin())];
     } else {

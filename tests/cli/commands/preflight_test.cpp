@@ -76,10 +76,27 @@ TEST(Preflight, AsksLessOfAWire) {
   EXPECT_EQ(status, 1);
   ASSERT_EQ(thin["too_thin"].size(), 1U);
   EXPECT_EQ(thin["too_thin"][0]["kind"], "wire");
-  EXPECT_NEAR(thin["too_thin"][0]["thickness_mm"].get<double>(), 0.5, 0.02);
+  EXPECT_NEAR(thin["too_thin"][0]["thickness_mm"].get<double>(), 0.5, 0.01);
   EXPECT_EQ(preflight("rotate([40, 0, 0]) cylinder(d = 0.6, h = 9, $fn = 24);")
                 .status,
             0);
+}
+
+// OpenSCAD gives it five sides: their inscribed circle is what is thin, here up
+// to a third of the distance of rays.
+TEST(Preflight, FindsAWireOfFewSides) {
+  for (const char* turn : {"[0, 0, 0]", "[40, 0, 0]", "[0, 90, 20]"}) {
+    for (const double diameter : {0.3, 0.5}) {
+      const json thin =
+          preflight("sphere(3); rotate(" + std::string(turn) +
+                    ") cylinder(d = " + std::to_string(diameter) + ", h = 9);")
+              .report["too_thin"];
+      ASSERT_EQ(thin.size(), 1U) << turn << diameter;
+      EXPECT_EQ(thin[0]["kind"], "wire");
+      EXPECT_NEAR(thin[0]["thickness_mm"].get<double>(),
+                  diameter * std::cos(std::numbers::pi / 5), 0.04);
+    }
+  }
 }
 
 TEST(Preflight, FindsANarrowGap) {
