@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/options/design_options.h"
+#include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
 #include "cli/report/run_report.h"
@@ -62,9 +63,7 @@ class OrientCommand : public Command {
   bool takes_settings() const override { return true; }
 
   void check() override {
-    refuse_if(!output_.empty() && !output_.ends_with(".html") &&
-                  !output_.ends_with(".json"),
-              "orient writes .html or .json; '{}' is neither", output_);
+    require_page_or_json("orient", output_);
     refuse_if(request_.job.cusp > 0 || !request_.job.heights.empty(),
               "orient compares layers of one thickness");
     refuse_if(request_.geometry.up ||

@@ -136,9 +136,7 @@ class PlateCommand : public Command {
               "plate needs --printer, or the plate's size as --plate W,D");
     refuse_if(request_.job.cusp > 0 || !request_.job.heights.empty(),
               "plates have layers of one thickness");
-    refuse_if(
-        !map_.empty() && !map_.ends_with(".html") && !map_.ends_with(".json"),
-        "--map writes .html or .json; '{}' is neither", map_);
+    require_page_or_json("--map", map_);
     refuse_if(!output_options_.report.empty(),
               "the report of plates is --map FILE.json");
     refuse_if(request_.job.written != slicer::LayerNumbers(),

@@ -75,9 +75,7 @@ class PreflightCommand : public Command {
   bool takes_settings() const override { return true; }
 
   void check() override {
-    refuse_if(!output_.empty() && !output_.ends_with(".html") &&
-                  !output_.ends_with(".json"),
-              "preflight writes .html or .json; '{}' is neither", output_);
+    require_page_or_json("preflight", output_);
     refuse_if(request_.supports.has_value(),
               "preflight looks at the piece without --supports");
     compiler::validate(request_);
@@ -118,7 +116,7 @@ class PreflightCommand : public Command {
       text += fmt::format("  inner diameter {:.2f} mm: {}\n", found.finger,
                           ring_size_text(found.finger));
     }
-    const auto metals = weighed_metals(found);
+    const auto& metals = found.metals;
     for (std::size_t i = 1; i < metals.size(); ++i) {
       text += fmt::format("{}{} {:.2f} g", i == 1 ? "  in " : ", ",
                           metals[i].title, metals[i].weight(found.volume));
@@ -188,7 +186,7 @@ class PreflightCommand : public Command {
       json["ring_size_eu"] = compiler::european_ring_size(found.finger);
       json["ring_size_us"] = compiler::american_ring_size(found.finger);
     }
-    for (const slicer::Material& metal : weighed_metals(found)) {
+    for (const slicer::Material& metal : found.metals) {
       json["weights_g"][metal.name] = metal.weight(found.volume);
     }
     const slicer::CastingLimits& limits = *found.metal.casting;

@@ -47,6 +47,15 @@ constexpr std::array<View, 3> kViews = {{{"from the front", Vec3(90, 0, 0)},
                                          {"from the right", Vec3(90, 0, 90)},
                                          {"from above", Vec3(0, 0, 0)}}};
 
+// "A", "B", …, "Z", "AA": what pictures and lists call heavy places.
+std::string letter_of(std::size_t index) {
+  std::string letters;
+  for (std::size_t left = index + 1; left > 0; left = (left - 1) / 26) {
+    letters.insert(letters.begin(), static_cast<char>('A' + (left - 1) % 26));
+  }
+  return letters;
+}
+
 // Marks of findings in a picture, where the camera shows their places.
 class Marks {
  public:
@@ -124,7 +133,7 @@ std::string facts_of(const compiler::Preflight& found) {
 
 std::string weights_of(const compiler::Preflight& found) {
   std::string text = "<table>\n";
-  for (const slicer::Material& metal : weighed_metals(found)) {
+  for (const slicer::Material& metal : found.metals) {
     text += fmt::format("<tr><th>{}</th><td class=\"n\">{:.2f} g</td></tr>\n",
                         escape_html(metal.title), metal.weight(found.volume));
   }
@@ -216,14 +225,6 @@ std::string parameters_of(const compiler::Preflight& found) {
 
 }  // namespace
 
-std::string letter_of(std::size_t index) {
-  std::string letters;
-  for (std::size_t left = index + 1; left > 0; left = (left - 1) / 26) {
-    letters.insert(letters.begin(), static_cast<char>('A' + (left - 1) % 26));
-  }
-  return letters;
-}
-
 std::string place_text(Vec3 place) {
   // No "-0.00".
   const Vec3 rounded = glm::round(place * 100.0) / 100.0 + 0.0;
@@ -255,16 +256,6 @@ std::string fault_text(const compiler::Preflight& found) {
 std::string kind_of(const compiler::TooThin& one) {
   if (one.place.is_gap) return "gap";
   return one.place.shape == slicer::ThinShape::kWire ? "wire" : "wall";
-}
-
-std::vector<slicer::Material> weighed_metals(const compiler::Preflight& found) {
-  std::vector<slicer::Material> metals = {found.metal};
-  for (const char* name : compiler::kUsualMetals) {
-    if (name != found.metal.name) {
-      metals.push_back(slicer::find_material(name));
-    }
-  }
-  return metals;
 }
 
 std::string preflight_page(const compiler::Preflight& found,

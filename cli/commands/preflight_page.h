@@ -7,9 +7,6 @@
 
 namespace lamina::cli {
 
-// "A", "B", …, "Z", "AA": what pictures and lists call heavy places.
-std::string letter_of(std::size_t index);
-
 // "1.50, 0.00, 21.32": as lists have a place.
 std::string place_text(Vec3 place);
 
@@ -22,9 +19,6 @@ std::string fault_text(const compiler::Preflight& found);
 
 // "wall", "gap" or "wire".
 std::string kind_of(const compiler::TooThin& one);
-
-// The metals that weights are given in: that of the piece first.
-std::vector<slicer::Material> weighed_metals(const compiler::Preflight& found);
 
 // design  its path
 //

@@ -8,6 +8,12 @@
 #include "base/text.h"
 
 namespace lamina::cli {
+void require_page_or_json(std::string_view writer, std::string_view file) {
+  compiler::refuse_if(
+      !file.empty() && !file.ends_with(".html") && !file.ends_with(".json"),
+      "{} writes .html or .json; '{}' is neither", writer, file);
+}
+
 double require_number(const std::string& option, std::string_view text) {
   const std::optional<double> value = parse_number(text);
   require(value.has_value(), option,

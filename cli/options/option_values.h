@@ -25,6 +25,11 @@ void require(bool holds, const std::string& option,
       "{}: {}", option, fmt::format(words, std::forward<Args>(args)...)));
 }
 
+// The file, if one is named, is a page or JSON by its extension.
+//
+// writer  what would write it: an option or a command
+void require_page_or_json(std::string_view writer, std::string_view file);
+
 // A finite number and nothing else.
 double require_number(const std::string& option, std::string_view text);
 

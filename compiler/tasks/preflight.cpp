@@ -45,6 +45,9 @@ constexpr double kGreatestFinger = 27;
 constexpr double kFingerLayer = 0.2;
 constexpr double kFingerTolerance = 0.001;
 
+constexpr const char* kUsualMetals[] = {"sterling-silver", "gold-14k-yellow",
+                                        "gold-18k-yellow", "platinum-950"};
+
 // The metal that is named, or the printed material if that is a metal.
 slicer::Material metal_of(const Machine& machine) {
   const std::optional<slicer::Material>& metal =
@@ -209,6 +212,12 @@ std::optional<Preflight> preflight(Compilation& c,
   c.report.machine = choose_machine(c.request.output, c.file_access());
   Preflight found;
   found.metal = metal_of(c.report.machine);
+  found.metals = {found.metal};
+  for (const char* name : kUsualMetals) {
+    if (name != found.metal.name) {
+      found.metals.push_back(slicer::find_material(name));
+    }
+  }
   const auto lowered = make_geometry(c);
   if (!lowered) return std::nullopt;
   if (lowered->scene() == nullptr) {

@@ -38,6 +38,8 @@ struct PreflightOptions {
 
 struct Preflight {
   slicer::Material metal;
+  // That and the usual ones, of which weights are given too.
+  std::vector<slicer::Material> metals;
   std::vector<slicer::Layer> layers;  // of the piece
   Box3 box;
   double volume = 0;  // [mm³]
@@ -57,10 +59,6 @@ struct Preflight {
   std::vector<CustomizerEntry> parameters;
   double pitch = 0;  // of the rays that measured thickness [mm]
 };
-
-// Weights are given in these too.
-inline constexpr const char* kUsualMetals[] = {
-    "sterling-silver", "gold-14k-yellow", "gold-18k-yellow", "platinum-950"};
 
 // Ring sizes of an inner diameter [mm]: the circumference [mm] in Europe (ISO
 // 8653), and that of the USA, of which each is 0.032 inches wider.

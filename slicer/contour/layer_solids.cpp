@@ -30,6 +30,11 @@ double LayerSolids::depth(std::size_t i, Vec2 place) const {
   return edges.winding_number(place) > 0 ? distance : -distance;
 }
 
+bool LayerSolids::touches(std::size_t i, Vec2 place) const {
+  constexpr double kTouch = 0.02;  // [mm]
+  return depth(i, place) > -kTouch || (i > 0 && depth(i - 1, place) > -kTouch);
+}
+
 bool LayerSolids::is_free(std::size_t i, Vec2 place, double distance) const {
   const Solid& asked = solid(i);
   if (asked.edges.is_empty()) return true;

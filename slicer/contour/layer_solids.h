@@ -24,6 +24,10 @@ class LayerSolids {
   double depth(std::size_t i, Vec2 place) const;
   // Whether all of the solid of layer i is farther from the place than that.
   bool is_free(std::size_t i, Vec2 place, double distance) const;
+  // Whether the place, on the surface of a part in layer i, is on that of these
+  // solids, as far as rounding and the tolerance of contours say. What was
+  // subtracted there leaves its surface, so the layer below is asked, too.
+  bool touches(std::size_t i, Vec2 place) const;
   // The nearest point of layer i's contours. There must be one.
   Vec2 nearest(std::size_t i, Vec2 place) const;
 

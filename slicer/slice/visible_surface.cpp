@@ -7,13 +7,6 @@
 #include "slicer/slice/slice.h"
 
 namespace lamina::slicer {
-namespace {
-
-// How far from a leaf a place on its surface may be, by rounding and by the
-// tolerance of contours [mm]. As where `$support` is asked for.
-constexpr double kTouch = 0.02;
-
-}  // namespace
 
 VisibleSurface::VisibleSurface(std::vector<Layer> layers)
     : layers_(std::move(layers)), solids_(layers_) {}
@@ -34,10 +27,7 @@ bool VisibleSurface::is_at(Vec3 place) const {
       std::ranges::lower_bound(layers_, place.z, {}, &Layer::section_z);
   const auto i = std::min(static_cast<std::size_t>(above - layers_.begin()),
                           layers_.size() - 1);
-  const auto touches = [&](std::size_t layer) {
-    return solids_.depth(layer, Vec2(place)) > -kTouch;
-  };
-  return touches(i) || (i > 0 && touches(i - 1));
+  return solids_.touches(i, Vec2(place));
 }
 
 }  // namespace lamina::slicer

@@ -120,8 +120,6 @@ Ball BallFinder::grow(Vec3 touch, Vec3 direction, double most) const {
     ball.radius = radius;
     ball.centre = touch + radius * direction;
     ball.stop = inside->point;
-    ball.angle =
-        2 * std::asin(std::min(glm::length(chord) / (2 * radius), 1.0));
   }
   return ball;
 }

@@ -26,10 +26,9 @@ namespace lamina::slicer {
 struct Ball {
   Vec3 centre = Vec3(0);
   double radius = 0;  // [mm]
-  // The point that stops it, and the angle between the two places where it
-  // touches [rad]; none where it has the greatest radius that was asked for.
+  // The point that stops it; none where it has the greatest radius that was
+  // asked for.
   std::optional<std::uint32_t> stop = {};
-  double angle = 0;
 };
 
 class BallFinder {

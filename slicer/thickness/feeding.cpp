@@ -1,7 +1,6 @@
 #include "slicer/thickness/feeding.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -16,34 +15,17 @@ namespace {
 
 using Index = SolidCells::Index;
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
 // By what share the first look at a cell may take its ball for too large.
 constexpr double kFirstDoubt = 0.02;
 
 // A cell on the surface itself has a ball all the same [mm].
 constexpr double kLeastRadius = 1e-9;
 
-// Cells that one task takes.
-constexpr std::size_t kCellsPerTask = 1 << 14;
-
 std::vector<Index> list_cells(const SolidCells& cells) {
   std::vector<Index> list(cells.size());
   cells.visit(
       [&](std::uint32_t number, const Index& index) { list[number] = index; });
   return list;
-}
-
-template <typename Body>
-void for_each_cell(std::size_t count, const Body& body) {
-  for_each_index(
-      (count + kCellsPerTask - 1) / kCellsPerTask, [&](std::size_t task) {
-        const std::size_t first = task * kCellsPerTask;
-        const std::size_t end = std::min(first + kCellsPerTask, count);
-        for (std::size_t i = first; i < end; ++i) {
-          body(static_cast<std::uint32_t>(i));
-        }
-      });
 }
 
 // Sinks the height from the highest summit to the surface.
@@ -107,7 +89,7 @@ class Flood {
 
  private:
   struct Neck {
-    std::uint32_t cell = kNone;
+    std::uint32_t cell = 0;
     double radius = 0;
   };
 
@@ -131,22 +113,21 @@ class Flood {
 
   void join_neighbours(std::uint32_t rank, std::uint32_t cell) {
     const std::uint32_t here = rank + 1;
-    std::uint32_t highest = kNone;
+    higher_.clear();
     visit_around(cells_[cell], [&](std::uint32_t other) {
-      if (rank_of_[other] < rank) highest = std::min(highest, rank_of_[other]);
+      if (rank_of_[other] < rank) higher_.push_back(rank_of_[other]);
     });
-    if (highest == kNone) {
+    if (higher_.empty()) {
       pool_of_[cell] = here;  // a summit
       return;
     }
     // The cell belongs to the highest beside it, and joins the others.
+    const std::uint32_t highest = *std::ranges::min_element(higher_);
     pool_of_[cell] = pool_of_[order_[highest]];
     sets_.unite(here, highest + 1);
-    visit_around(cells_[cell], [&](std::uint32_t other) {
-      if (rank_of_[other] >= rank) return;
-      join(sets_.find(here), sets_.find(rank_of_[other] + 1),
-           {cell, field_.radii[cell]});
-    });
+    for (const std::uint32_t other : higher_) {
+      join(sets_.find(here), sets_.find(other + 1), {cell, field_.radii[cell]});
+    }
   }
 
   // a, b  summits of two sets
@@ -210,6 +191,7 @@ class Flood {
   UnionFind sets_;   // of cells above the height that hang together
   UnionFind pools_;  // of summits that feed each other
   std::vector<std::uint32_t> pool_of_;   // each cell: a number in pools_
+  std::vector<std::uint32_t> higher_;    // ranks around the present cell
   std::map<std::uint32_t, Neck> necks_;  // of summits
 };
 
@@ -224,7 +206,7 @@ ThicknessField measure_thickness(const SolidSamples& samples,
   // A first look. A ray along y enters at most one step before its first cell.
   ThicknessField field{std::vector<double>(list.size())};
   std::vector<std::uint32_t> feet(list.size());
-  for_each_cell(list.size(), [&](std::uint32_t cell) {
+  for_each_index(list.size(), [&](std::size_t cell) {
     const Vec3 middle = cells.middle_of(list[cell]);
     for (double within = 2 * pitch; !(field.radii[cell] > 0); within *= 2) {
       const auto foot = balls.nearest(middle, within, kFirstDoubt);
@@ -237,7 +219,7 @@ ThicknessField measure_thickness(const SolidSamples& samples,
   // Where no cell beside is clearly farther from the surface, a summit or a
   // neck may be: let the ball grow away from what is nearest.
   const std::vector<double> first = field.radii;
-  for_each_cell(list.size(), [&](std::uint32_t cell) {
+  for_each_index(list.size(), [&](std::size_t cell) {
     const Vec3 middle = cells.middle_of(list[cell]);
     const auto inward_from = [&](std::uint32_t point) {
       return (middle - samples.points[point].place) / first[cell];

@@ -112,8 +112,7 @@ class ThinBalls {
     if (-glm::dot(point.normal, other.normal) < kLeastCosine) return;
     const double radius = length * length / (2 * along);
     if (!(radius < ball.radius)) return;
-    ball = {point.place + radius * direction, radius, number,
-            2 * std::asin(std::min(along / length, 1.0))};
+    ball = {point.place + radius * direction, radius, number};
   }
 
   const SolidSamples& samples_;

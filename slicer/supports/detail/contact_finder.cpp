@@ -393,16 +393,10 @@ class Finder {
     return orbit;
   }
 
-  // The diameter of a tip at a place of a layer, 0 where none is wanted. A
-  // subtracted leaf marks the surface that it leaves, so the layer below is
-  // asked, too.
+  // The diameter of a tip at a place of a layer, 0 where none is wanted.
   double tip_at(std::size_t i, Vec2 place) const {
-    constexpr double kTouch = 0.02;  // [mm]
     for (const auto& [tip, solids] : marked_) {
-      if (solids.depth(i, place) > -kTouch ||
-          (i > 0 && solids.depth(i - 1, place) > -kTouch)) {
-        return tip;
-      }
+      if (solids.touches(i, place)) return tip;
     }
     return sizes_.tip;
   }

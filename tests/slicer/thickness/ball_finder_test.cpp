@@ -2,6 +2,7 @@
 
 #include "slicer/thickness/ball_finder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -52,7 +53,12 @@ TEST(BallFinder, MeasuresAPlateHoweverItLies) {
       if (glm::length(point.place) > 3) continue;
       EXPECT_GE(2 * ball.radius, 0.6 - 1e-6);
       EXPECT_LE(2 * ball.radius, 0.6 + std::pow(kCover * kPitch, 2) / 0.6);
-      EXPECT_GT(ball.angle, 5 * std::numbers::pi / 6);
+      const double angle = std::acos(
+          std::clamp(glm::dot(point.place - ball.centre,
+                              samples.points[*ball.stop].place - ball.centre) /
+                         (ball.radius * ball.radius),
+                     -1.0, 1.0));
+      EXPECT_GT(angle, 5 * std::numbers::pi / 6);
       ++measured;
     }
     EXPECT_GT(measured, 3000);
