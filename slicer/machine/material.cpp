@@ -18,7 +18,9 @@ using nlohmann::json;
 constexpr double kGreatestDensity = 25;  // [g/cm³]; osmium has 22.6
 constexpr double kGreatestExposure = 1000;
 constexpr double kGreatestPrice = 1e9;
-constexpr double kGreatestCasting = 10;    // [mm]
+// Of what castings need [mm]: what is thinner is nothing to look for.
+constexpr double kLeastCasting = 0.05;
+constexpr double kGreatestCasting = 10;
 constexpr double kTroyOunce = 31.1034768;  // [g]
 
 KnownExposure read_exposure(const json& object) {
@@ -45,12 +47,13 @@ Price read_price(const json& object, const char* member,
 CastingLimits read_casting(const json& object) {
   detail::require_members(
       object, {"wall_mm", "wire_mm", "gap_mm", "finishing_mm", "source"});
-  const auto read = [&](const char* member) {
+  const auto read = [&](const char* member, double least) {
     object.at(member);  // which none can do without
-    return detail::read_number(object, member, 0, kGreatestCasting, 0);
+    return detail::read_number(object, member, least, kGreatestCasting, 0);
   };
-  return {read("wall_mm"), read("wire_mm"), read("gap_mm"),
-          read("finishing_mm"), detail::read_line(object, "source", "")};
+  return {read("wall_mm", kLeastCasting), read("wire_mm", kLeastCasting),
+          read("gap_mm", kLeastCasting), read("finishing_mm", 0),
+          detail::read_line(object, "source", "")};
 }
 
 Material read_material(const json& object) {

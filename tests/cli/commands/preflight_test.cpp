@@ -183,6 +183,12 @@ TEST(Preflight, NeedsAMetal) {
     EXPECT_NE(result.status, 0);
     EXPECT_TRUE(has(result.errors, "preflight needs a metal")) << result.errors;
   }
+  folder.write("n.json",
+               R"({"name": "tin", "density": 7.3, "casting": {"wall_mm": 1,
+                   "wire_mm": 1, "gap_mm": 0, "finishing_mm": 0}})");
+  const auto bad = run(folder, {"preflight", "a.scad", "--metal", "n.json"});
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_TRUE(has(bad.errors, "gap_mm")) << bad.errors;
   folder.write("m.json", R"({"name": "tin", "density": 7.3})");
   const auto result = run(folder, {"preflight", "a.scad", "--metal", "m.json"});
   EXPECT_EQ(result.status, 2);
