@@ -86,7 +86,7 @@ compiler::Request to_request(const DesignOptions& options, std::string name) {
   request.design.parameter_file = options.parameter_file;
   request.design.parameter_set = options.parameter_set;
   request.geometry.chordal_error = options.chordal_error;
-  request.geometry.scale = options.scale;
+  request.geometry.scale = Vec3(options.scale);
   request.geometry.axis = options.axis;
   request.geometry.is_placed_on_bed = options.place_on_bed;
   request.design.language = options.language;

@@ -1,5 +1,6 @@
 #include "compiler/passes.h"
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
 
@@ -82,10 +83,11 @@ csg::EvaluateOptions evaluate_options(const Request& request) {
   options.check_ranges = design.checks_parameter_ranges;
   options.max_depth = design.max_depth;
   options.max_leaves = design.max_leaves;
+  const Vec3 scale = request.geometry.scale;
   options.chordal_error =
       (request.geometry.chordal_error > 0 ? request.geometry.chordal_error
                                           : csg::kChordalErrorOfParts) /
-      request.geometry.scale;
+      std::max({scale.x, scale.y, scale.z});
   return options;
 }
 
@@ -303,7 +305,7 @@ std::optional<slicer::HollowReport> hollow(csg::Lowered& lowered,
   if (!sizes.drains.empty()) {
     const Affine turn = turn_of(geometry);
     for (slicer::DrainPlace& drain : sizes.drains) {
-      drain.place = geometry.scale * (turn * Vec4(drain.place, 0));
+      drain.place = geometry.scale * Vec3(turn * Vec4(drain.place, 0));
     }
   }
   return slicer::hollow_out(*scene, sizes, settings_of(request, machine),

@@ -62,10 +62,13 @@ struct GeometryRequest {
   unsigned searched_direction = 0;
   double turn = 0;  // about the axis, anticlockwise from above [degrees]
   bool is_placed_on_bed = false;
-  double scale = 1;
+  Vec3 scale = Vec3(1);      // along x, y and z of the print
   double chordal_error = 0;  // [mm]; 0: $fa and $fs decide
   double decimation = 0;     // of imported meshes [mm]; 0: none
 };
+
+// The same facets, but neither turned nor moved nor scaled.
+GeometryRequest as_drawn(const GeometryRequest& geometry);
 
 // Lines of the design, "12" or "lib.scad:12", that decide where supports are.
 struct SupportLines {

@@ -33,10 +33,12 @@ Request without_supports(const Request& request) {
   Request part = request;
   part.supports.reset();
   if (part.hollow) {
-    part.hollow = part.hollow->scaled(1 / part.geometry.scale);
+    const Vec3 scale = part.geometry.scale;
+    part.hollow =
+        part.hollow->scaled(1 / std::min({scale.x, scale.y, scale.z}));
     part.hollow->has_plugs = false;
   }
-  part.geometry.scale = 1;
+  part.geometry.scale = Vec3(1);
   part.geometry.is_placed_on_bed = false;
   part.job.written = {};
   part.job.min_feature = 0;

@@ -31,7 +31,7 @@ constexpr std::string_view kMoreThanZero = "must be more than 0 mm, not {0}";
 constexpr std::string_view kAtLeastAMillionth = "must be at least 0.000001 mm";
 constexpr std::string_view kFromTo = "must be from {1} to {2}, not {0}";
 
-constexpr std::array<NumberLimits, 18> kNumbers = {{
+constexpr std::array<NumberLimits, 20> kNumbers = {{
     {"--layer", kAboveZero, kUnlimited, kMoreThanZero,
      [](const Request& r) { return r.job.layer_thickness; }},
     {"--adaptive", kAboveZero, kUnlimited, kMoreThanZero,
@@ -53,7 +53,11 @@ constexpr std::array<NumberLimits, 18> kNumbers = {{
     {"--threads", 1, 1024, kFromTo,
      [](const Request& r) { return static_cast<double>(r.job.threads); }, true},
     {"--scale", kLeastScale, kGreatestScale, kFromTo,
-     [](const Request& r) { return r.geometry.scale; }},
+     [](const Request& r) { return r.geometry.scale.x; }},
+    {"--scale", kLeastScale, kGreatestScale, kFromTo,
+     [](const Request& r) { return r.geometry.scale.y; }},
+    {"--scale", kLeastScale, kGreatestScale, kFromTo,
+     [](const Request& r) { return r.geometry.scale.z; }},
     {"--turn", -360, 360, "must be from {1} to {2} degrees, not {0}",
      [](const Request& r) { return r.geometry.turn; }},
     {"--chordal-error", kLeastChordalError, kUnlimited, kAtLeastAMillionth,
@@ -101,6 +105,10 @@ void refuse_turn(const Request& request) {
             "--orient best needs layers, not --heights");
   refuse_if(geometry.turn != 0 && geometry.axis == kAutomaticAxis,
             "--axis auto turns the part itself, if it must; not with --turn");
+  const Vec3 scale = geometry.scale;
+  refuse_if((scale.x != scale.y || scale.y != scale.z) &&
+                geometry.axis == kAutomaticAxis,
+            "--scale X,Y,Z needs an axis, not --axis auto");
   refuse_if(!request.supports && (!request.support_lines.only.empty() ||
                                   !request.support_lines.without.empty()),
             "--support-on and --no-support-on need --supports");

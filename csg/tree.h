@@ -45,7 +45,9 @@ struct Facets {
 
 // --- Operations -----------------------------------------------------------
 // Groups are unions; the name is what `.csg` prints ("group", "union").
-struct Group {};
+struct Group {
+  bool is_call = false;  // of a module of the design: what it makes is one thing
+};
 struct Union {};
 struct Difference {};
 struct Intersection {};
@@ -247,6 +249,7 @@ struct Node {
   const CallSite* caller = nullptr;
   float support_tip = kNoSupportTip;  // $support
   bool is_visible = false;            // $visible
+  bool is_rigid = false;              // $rigid
   bool is_root = false;               // !
   bool is_highlight = false;          // #
   bool is_background = false;         // %

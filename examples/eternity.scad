@@ -73,7 +73,8 @@ module ring() {
     around(count)
       on_ring(girdle, 0)
         seat_cutter(stone, bite = 0.15 * prong_wire, above = stone,
-                    hole = 0.5 * stone, below = girdle - diameter / 2 + 0.5);
+                    hole = 0.5 * stone, below = girdle - diameter / 2 + 0.5,
+                    $rigid = true);
   }
   if (show_stones) %around(count) on_ring(girdle, 0) brilliant(stone);
 }

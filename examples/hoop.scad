@@ -106,7 +106,8 @@ module front() {
     }
     inner_knuckle(knuckle_radius + 2 * play, play);
     pin_hole();
-    at_stones() seat_cutter(stone, bite = 0.1, above = 1.5, hole = 0.7, below = 1.2);
+    at_stones() seat_cutter(stone, bite = 0.1, above = 1.5, hole = 0.7, below = 1.2,
+                            $rigid = true);
   }
   if (show_stones) %at_stones() brilliant(stone);
 }

@@ -114,7 +114,7 @@ module medal() {
     }
     if (stone > 0)
       at_stone() seat_cutter(stone, bite = 0.12, above = 2, hole = 0.5 * stone,
-                             below = thickness);
+                             below = thickness, $rigid = true);
     translate([0, name_drop, -1]) linear_extrude(1 + engraved)
       mirror([1, 0]) line_of(date, 0.9 * name_width);
   }

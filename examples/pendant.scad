@@ -66,9 +66,9 @@ module body() {
 module openings() {
   translate([0, 0, girdle])
     seat_cutter(stone, bite = 0.15, above = 2, hole = 0.55 * stone,
-                below = girdle + 1);
+                below = girdle + 1, $rigid = true);
   at_halo() seat_cutter(small, bite = 0.15 * bead, above = 2, hole = 0.55 * small,
-                        below = plate + 1);
+                        below = plate + 1, $rigid = true);
 }
 
 difference() {

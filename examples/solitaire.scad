@@ -71,7 +71,7 @@ module ring() {
     }
     on_ring(girdle)
       seat_cutter(stone, bite = prong_bite(prong_wire), above = stone,
-                  hole = 0.36 * stone, below = girdle);
+                  hole = 0.36 * stone, below = girdle, $rigid = true);
     // Keep the head's foot out of the finger's way.
     cylinder(d = diameter, h = 3 * width_back + stone, center = true);
   }

@@ -87,8 +87,8 @@ Slicing (lengths in millimetres):
   --supports          add supports; =light for tips of 0.25 mm, =medium 0.3,
                       =heavy 0.4 or a diameter; =heavy,raft on a raft [medium]
   --hollow MM         hollow the part, with walls of MM and drains (--help-all)
-  --place-on-bed      put the lowest point of the design at height 0
-  --scale FACTOR      enlarge the print, by 1.02 where casting shrinks [1]
+  --sprue             add sprues for casting, as 'lamina sprue' does
+  --scale FACTOR      enlarge the print where casting shrinks: 1.02, or X,Y,Z [1]
   --compensate MM     move contours into the solid by half the beam's width [0]
 
 Checks:

@@ -85,6 +85,21 @@ slicer::SupportSizes sizes_of(const std::string& text) {
   return sizes;
 }
 
+// text  "1.02", "1.02,1.02,1.015"
+Vec3 scale_in(const std::string& text) {
+  require(!text.ends_with('%'), "--scale",
+          "a factor was expected, such as 1.02 for a print 2% larger, not '{}'",
+          text);
+  const auto words = words_of(text);
+  require(words.size() == 1 || words.size() == 3, "--scale",
+          "one factor was expected, or three for x, y and z, not '{}'", text);
+  Vec3 scale(0);
+  for (int i = 0; i < 3; ++i) {
+    scale[i] = require_within("--scale", words[words.size() == 1 ? 0 : i]);
+  }
+  return scale;
+}
+
 // text  "0,1,1", "best", "2"
 void take_direction(const std::string& text,
                     compiler::GeometryRequest& geometry) {
@@ -232,11 +247,7 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.number("--tolerance", "length", settings.tolerance);
   options.number("--compensate", "length", settings.compensation);
   options.text("--scale", "factor", [&](const std::string& text) {
-    require(
-        !text.ends_with('%'), "--scale",
-        "a factor was expected, such as 1.02 for a print 2% larger, not '{}'",
-        text);
-    request.geometry.scale = require_within("--scale", text);
+    request.geometry.scale = scale_in(text);
   });
   options.text("--ray", "length", [&](const std::string& text) {
     settings.ray_pitch = text == "auto" ? 0 : require_within("--ray", text);

@@ -87,9 +87,42 @@ Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
 
 Shape Lowerer::lower(const Place& at) {
   return add_place(at.node.range, at.node.caller, [&] {
-    return std::visit([&](const auto& op) { return lower_op(op, at); },
-                      at.node.op);
+    if (begins_rigid(at.node)) return lower_rigid(at);
+    return lower_node(at);
   });
+}
+
+Shape Lowerer::lower_node(const Place& at) {
+  return std::visit([&](const auto& op) { return lower_op(op, at); },
+                    at.node.op);
+}
+
+bool Lowerer::begins_rigid(const Node& node) const {
+  if (!node.is_rigid || is_rigid_ || options_.scale == Vec3(1)) return false;
+  const auto* group = std::get_if<Group>(&node.op);
+  return group != nullptr ? group->is_call
+                          : !std::holds_alternative<Transform>(node.op) &&
+                                !std::holds_alternative<Color>(node.op);
+}
+
+// Its frame is where the scale puts it, and has the size that the design gives.
+Shape Lowerer::lower_rigid(const Place& at) {
+  const Affine& world = at.world;
+  const Vec3 scale = options_.scale;
+  const Affine moved = {world[0] / scale, world[1] / scale, world[2] / scale,
+                        world[3]};
+  is_rigid_ = true;
+  Shape shape = lower_node({at.node, is_apart_ ? world : moved, at.joins});
+  is_rigid_ = false;
+  if (is_apart_ || shape.dimension == Dimension::kFlat) {
+    diagnostics_.own_warning(
+        at.node.range,
+        is_apart_ ? "$rigid does nothing inside hull(), minkowski(), resize() "
+                    "and projection(): give it to them"
+                  : "$rigid does nothing for an outline: give it to the solid "
+                    "that is made of it");
+  }
+  return shape;
 }
 
 Scene Lowerer::take_scene() {
@@ -114,11 +147,14 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   of_tree.language = tree.language;
   if (!found.has_parts) of_tree.chordal_error_of_parts = 0;
   Lowerer lowerer(found.childless, of_tree, shared, diagnostics);
+  const Affine& turn = options.world_from_design;
+  const Vec3 scale = options.scale;
   Shape shape = lowerer.lower(
-      {*root, options.world_from_design * Mat4(glm::dmat3(options.scale))});
+      {*root,
+       {scale * turn[0], scale * turn[1], scale * turn[2], scale * turn[3]}});
   if (!shape.region.is_empty()) {
     for (plane::Contour& contour : shape.region.contours) {
-      for (Vec2& point : contour) point *= options.scale;
+      for (Vec2& point : contour) point *= Vec2(scale);
     }
     return {std::move(shape.region)};
   }

@@ -123,7 +123,10 @@ Lowerer Lowerer::make_inner(const Place& at) {
   options.chordal_error = fineness({}, at.world).chordal_error;
   options.chordal_error_of_parts = chordal_error_of_parts_at(at.world);
   options.decimation = decimation_at(at.world);
-  return {at.node.children.size(), options, shared_, diagnostics_};
+  Lowerer inner(at.node.children.size(), options, shared_, diagnostics_);
+  inner.is_rigid_ = is_rigid_;
+  inner.is_apart_ = true;
+  return inner;
 }
 
 Lowerer::Apart Lowerer::lower_apart(const Place& at, bool takes_corners) {

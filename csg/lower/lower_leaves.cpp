@@ -318,7 +318,9 @@ void Lowerer::place(std::uint32_t leaf, Vec3 size, const Place& at) {
   instance.support_tip = at.node.support_tip;
   // Supports are enlarged with the print.
   if (instance.support_tip > 0) {
-    instance.support_tip *= static_cast<float>(options_.scale);
+    const Vec3 scale = options_.scale;
+    instance.support_tip *=
+        static_cast<float>(std::min({scale.x, scale.y, scale.z}));
   }
   instance.is_visible = at.node.is_visible;
   instance.color = color_;

@@ -12,7 +12,8 @@
 //            sits at +y ("north"); `stand_up()` turns north to +z.
 //   stone    z = 0 is the plane through the middle of the girdle, +z is the
 //            table. Every stone, seat, head and bezel uses this frame, so that
-//            one transform places them all.
+//            one transform places them all. `$rigid = true` for a seat keeps its
+//            size where lamina's --scale enlarges the rest for casting.
 //
 // Facets follow $fn, or $fa and $fs, everywhere, sweeps included.
 //

@@ -43,7 +43,7 @@ TEST(Validate, SaysWhatIsWrong) {
   layer.job.layer_thickness = -0.5;
   EXPECT_EQ(fault_of(layer), "--layer: must be more than 0 mm, not -0.5");
   Request scale;
-  scale.geometry.scale = 2000;
+  scale.geometry.scale.y = 2000;
   EXPECT_EQ(fault_of(scale), "--scale: must be from 0.001 to 1000, not 2000");
   Request axis;
   axis.geometry.axis = "up";
@@ -56,7 +56,7 @@ TEST(Validate, SaysWhatIsWrong) {
 
 TEST(Validate, LimitsBelongToWhatIsAllowed) {
   Request request;
-  request.geometry.scale = 0.001;
+  request.geometry.scale = Vec3(0.001);
   request.job.compensation = -100;
   request.job.tolerance = 0;
   request.job.threads = 1024;

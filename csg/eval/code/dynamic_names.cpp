@@ -7,8 +7,9 @@ bool is_dynamic_name(std::string_view name) {
 }
 
 DynamicNames::DynamicNames() {
-  for (const char* name : {"$fn", "$fa", "$fs", "$fe", "$t", "$preview", "$vpt",
-                           "$vpr", "$vpd", "$vpf", "$support", "$visible"}) {
+  for (const char* name :
+       {"$fn", "$fa", "$fs", "$fe", "$t", "$preview", "$vpt", "$vpr", "$vpd",
+        "$vpf", "$support", "$visible", "$rigid"}) {
     number_of(name);
   }
 }

@@ -24,6 +24,7 @@ enum WellKnown : std::uint32_t {
   kViewField,
   kSupport,
   kVisible,
+  kRigid,
 };
 
 // Whether `name` has dynamic scope.

@@ -364,6 +364,7 @@ void Interpreter::make_node(decltype(Node::op) op,
   node->caller = current_call;
   node->support_tip = support_tip();
   node->is_visible = dynamic_[kVisible].is_true();
+  node->is_rigid = dynamic_[kRigid].is_true();
   node->is_root = code.modifiers.root;
   node->is_highlight = code.modifiers.highlight;
   node->is_background = code.modifiers.background;

@@ -122,7 +122,7 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
     if (!in.is_2021()) in.bind_module_depth();
     run_module_body(module, callee);
   }
-  in.make_node(Group{}, code, mark);
+  in.make_node(Group{.is_call = true}, code, mark);
 }
 
 // --- Built-in modules -------------------------------------------------------

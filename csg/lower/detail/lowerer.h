@@ -93,6 +93,12 @@ class Lowerer {
   Scene take_solids();
 
  private:
+  Shape lower_node(const Place& at);
+  // Whether the node, and all below it, is one thing that keeps its size:
+  // the outermost with $rigid that does not only place what is below it.
+  bool begins_rigid(const Node& node) const;
+  Shape lower_rigid(const Place& at);
+
   // --- lower_operators.cpp --------------------------------------------------
   template <Grouping Op>
   Shape lower_op(const Op&, const Place& at) {
@@ -242,6 +248,8 @@ class Lowerer {
   // Only the corners of the next leaf count: it is below a hull, without
   // siblings all the way. So its faces need not be closed.
   bool takes_corners_ = false;
+  bool is_rigid_ = false;  // below a node that keeps its size
+  bool is_apart_ = false;  // in coordinates that are scaled later
   std::int32_t color_ = kNoColor;  // of the outermost color() above
   LeafStore leaves_;
   ProgramBuilder builder_;
