@@ -41,6 +41,8 @@ struct Report {
   std::optional<slicer::Deviation> deviation;
   Machine machine;
   std::optional<FoundDirection> direction;  // if one was searched for
+  // The sprues that were added, if any were asked for.
+  std::optional<slicer::SpruePlan> sprues;
   // The supports that were added, if any were asked for.
   std::optional<slicer::SupportPlan> supports;
   std::optional<slicer::HollowReport> hollow;  // if it was asked for

@@ -16,9 +16,11 @@
 #include "compiler/layer_output.h"
 #include "compiler/make_rule.h"
 #include "compiler/orient.h"
+#include "compiler/sprues.h"
 #include "compiler/stage_text.h"
 #include "compiler/supports.h"
 #include "csg/lower/emptiness.h"
+#include "slicer/casting/sprue_text.h"
 
 namespace lamina::compiler {
 namespace {
@@ -73,6 +75,17 @@ void choose_direction(Compilation& c) {
   if (c.report.direction) c.request.geometry.up = c.report.direction->up;
 }
 
+// Measures the design's thickness to see where metal must flow in.
+void add_sprues(Compilation& c) {
+  if (!c.request.sprues) return;
+  c.on_pass("finding sprues");
+  c.report.sprues = plan_sprues(c.request, c.evaluation_stack,
+                                c.temporary_files, c.diagnostics);
+  c.request.sprues.reset();
+  if (!c.report.sprues) return;
+  c.request.design.appended += slicer::sprue_text(*c.report.sprues);
+}
+
 // Slices the design without supports to see where they must stand.
 void add_supports(Compilation& c) {
   if (!c.request.supports) return;
@@ -80,10 +93,12 @@ void add_supports(Compilation& c) {
   c.report.supports = plan_supports(c.request, c.evaluation_stack,
                                     c.temporary_files, c.diagnostics);
   if (!c.report.supports) return;
-  c.loader.append(support_lines(*c.report.supports, c.request.geometry));
+  c.request.design.appended +=
+      support_lines(*c.report.supports, c.request.geometry);
 }
 
 void load_design(Compilation& c) {
+  add_sprues(c);
   choose_direction(c);
   add_supports(c);
   c.on_pass("reading");

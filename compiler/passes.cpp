@@ -206,6 +206,7 @@ Affine turn_of(const GeometryRequest& request) {
 LoadedDesign load(const DesignRequest& request, Loader& loader,
                   Diagnostics& diagnostics) {
   LoadedDesign design;
+  loader.append(request.appended);
   design.program = read_design(request, loader);
   design.language = choose_language(request, loader, diagnostics);
   check_definitions(design.program, loader, diagnostics);

@@ -5,11 +5,29 @@
 #include <filesystem>
 #include <string_view>
 
+#include <fmt/format.h>
+
+#include "base/paths.h"
 #include "base/text.h"
 #include "csg/import/mesh_file.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::compiler {
+namespace {
+
+std::string import_statement(const std::string& path, const std::string& part) {
+  const std::string of = part.empty() ? "" : ", part = " + in_quotes(part);
+  return "import(" + in_quotes(path) + of + ");\n";
+}
+
+}  // namespace
+
+GeometryRequest as_drawn(const GeometryRequest& geometry) {
+  GeometryRequest drawn;
+  drawn.chordal_error = geometry.chordal_error;
+  drawn.decimation = geometry.decimation;
+  return drawn;
+}
 
 bool is_imported(const std::string& path) {
   constexpr std::array<std::string_view, 14> kExtensions = {
@@ -26,9 +44,15 @@ bool has_parts(const std::string& path) {
 }
 
 std::string import_of(const std::string& path, const std::string& part) {
-  const std::string name = std::filesystem::path(path).filename().string();
-  const std::string of = part.empty() ? "" : ", part = " + in_quotes(part);
-  return "import(" + in_quotes(name) + of + ");\n";
+  return import_statement(std::filesystem::path(path).filename().string(),
+                          part);
+}
+
+std::string design_that_takes(const DesignRequest& design,
+                              const std::string& folder) {
+  const std::string path = relative_path(design.path, folder);
+  if (is_imported(design.path)) return import_statement(path, design.part);
+  return fmt::format("include <{}>\n{}", path, design.definitions);
 }
 
 }  // namespace lamina::compiler

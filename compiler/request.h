@@ -9,6 +9,7 @@
 
 #include "csg/eval/evaluator.h"
 #include "parser/customizer/parameter_set.h"
+#include "slicer/casting/sprue_plan.h"
 #include "slicer/dump/layer_dump.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/hollow/hollow.h"
@@ -27,6 +28,7 @@ struct DesignRequest {
   std::string path;
   // The design itself; `path` is only its name then.
   std::optional<std::string> text;
+  std::string appended;  // lines that follow the text, before the definitions
   // The part to take of a FreeCAD file or a 3MF; empty: all that it shows.
   std::string part;
   std::string definitions;     // of all -D, as text: "a=1;\nb=2;\n"
@@ -106,7 +108,9 @@ struct Request {
   // Lengths as the print has them, places as the design has them.
   std::optional<slicer::HollowSizes> hollow;
   slicer::Settings job;  // how the solid is sliced
-  // Supports are added to the design. A tip of 0 is that of the material, or
+  // Sprues are added to the design.
+  std::optional<slicer::SprueSizes> sprues;
+  // Supports are added to the design, and to its sprues. A tip of 0 is that of the material, or
   // the usual one.
   std::optional<slicer::SupportSizes> supports;
   SupportLines support_lines;
@@ -123,6 +127,11 @@ bool is_imported(const std::string& path);
 // Whether parts of the file have names or numbers that lamina reads: a file of
 // a CAD program or a 3MF. By its name.
 bool has_parts(const std::string& path);
+
+// The text of a design in a folder that is this one, with its definitions: it
+// includes it, or imports it.
+std::string design_that_takes(const DesignRequest& design,
+                              const std::string& folder);
 
 // The text of a design that imports the file beside it, or a part of it.
 std::string import_of(const std::string& path, const std::string& part = {});

@@ -115,6 +115,9 @@ void refuse_turn(const Request& request) {
   refuse_if(!request.raft_label.empty() &&
                 (!request.supports || !request.supports->has_raft),
             "--label needs a raft: --supports=medium,raft");
+  refuse_if(
+      request.sprues && request.hollow,
+      "--sprue plans the flow into a solid piece, not into a --hollow one");
   refuse_if(request.supports && geometry.axis == kAutomaticAxis,
             "--supports needs an axis, not --axis auto");
   refuse_if(request.supports && !request.job.heights.empty(),

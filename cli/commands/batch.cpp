@@ -11,11 +11,11 @@
 #include <fmt/format.h>
 
 #include "base/source.h"
-#include "cli/commands/collect.h"
+#include "cli/pieces/collect.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/ledger.h"
-#include "cli/commands/piece_table.h"
-#include "cli/commands/pieces.h"
+#include "cli/pieces/ledger.h"
+#include "cli/pieces/piece_table.h"
+#include "cli/pieces/pieces.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"

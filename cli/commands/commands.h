@@ -47,7 +47,9 @@ std::unique_ptr<Command> make_parts_command();
 std::unique_ptr<Command> make_plate_command();
 std::unique_ptr<Command> make_preflight_command();
 std::unique_ptr<Command> make_printers_command();
+std::unique_ptr<Command> make_sprue_command();
 std::unique_ptr<Command> make_supports_command();
+std::unique_ptr<Command> make_tree_command();
 std::unique_ptr<Command> make_view_command();
 
 struct NamedCommand {
@@ -68,7 +70,9 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"plate", make_plate_command},
     NamedCommand{"preflight", make_preflight_command},
     NamedCommand{"printers", make_printers_command},
+    NamedCommand{"sprue", make_sprue_command},
     NamedCommand{"supports", make_supports_command},
+    NamedCommand{"tree", make_tree_command},
     NamedCommand{"view", make_view_command}};
 
 }  // namespace lamina::cli

@@ -17,10 +17,10 @@
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/orders.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"
+#include "cli/pieces/orders.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
 #include "cli/report/finding_table.h"
@@ -102,9 +102,9 @@ class PlateCommand : public Command {
   std::string_view help() const override { return kPlateHelp; }
 
   void add_options(OptionList& options) override {
-    options.words("design", designs_);
-    options.name("--table", "file", table_);
-    options.whole("--copies", copies_, 1, 100000);
+    options.words("design", from_.designs);
+    options.name("--table", "file", from_.table);
+    options.whole("--copies", from_.copies, 1, 100000);
     options.name("-o", "pattern", request_.output.path).required();
     options.text("--gap", "length", [this](const std::string& text) {
       plate_.gap = length_of("--gap", text);
@@ -126,12 +126,7 @@ class PlateCommand : public Command {
   bool takes_settings() const override { return true; }
 
   void check() override {
-    refuse_if(designs_.empty() && table_.empty(),
-              "plate needs a design or --table");
-    refuse_if(designs_.size() > 1 && !table_.empty(),
-              "with --table one design at most: that of rows without one");
-    refuse_if(copies_ && !table_.empty(),
-              "--copies is the table's column 'quantity'");
+    cli::check(from_, "plate");
     refuse_if(request_.output.printer.empty() && plate_.size.x == 0,
               "plate needs --printer, or the plate's size as --plate W,D");
     refuse_if(request_.job.cusp > 0 || !request_.job.heights.empty(),
@@ -148,7 +143,7 @@ class PlateCommand : public Command {
     refuse_if(!slicer::is_of_layers(request_.output.format),
               "plates are layers; '{}' is none", request_.output.path);
     request_.geometry.is_placed_on_bed = true;
-    request_.design.path = designs_.empty() ? "" : designs_.front();
+    request_.design.path = from_.designs.empty() ? "" : from_.designs.front();
     // Each piece gets its own.
     if (has_labels_) request_.raft_label = "name";
     compiler::validate(request_);
@@ -204,30 +199,14 @@ class PlateCommand : public Command {
     }
   }
 
-  std::vector<Order> orders(const Context& context, SourceStore& sources,
-                            Diagnostics& diagnostics) const {
-    if (!table_.empty()) {
-      return read_orders(table_, request_, context.file_access(), sources,
-                         diagnostics);
-    }
-    std::vector<Order> orders;
-    for (const std::string& design : designs_) {
-      Order& order = orders.emplace_back();
-      order.name = stem(design);
-      order.request = request_;
-      order.request.design.path = design;
-      order.quantity = copies_.value_or(1);
-    }
-    return orders;
-  }
-
   // Orders of equal pieces are one.
   std::vector<PlatePiece> find_pieces(const Context& context,
                                       SourceStore& sources,
                                       Diagnostics& diagnostics) const {
     std::vector<PlatePiece> pieces;
     std::map<PieceKey, std::size_t> known;
-    for (Order& order : orders(context, sources, diagnostics)) {
+    for (Order& order : read_orders(from_, request_, context.file_access(),
+                                    sources, diagnostics)) {
       if (has_labels_) order.request.raft_label = on_one_line(order.name);
       const auto [at, is_new] =
           known.try_emplace(key_of(order.request), pieces.size());
@@ -237,8 +216,9 @@ class PlateCommand : public Command {
     std::erase_if(pieces,
                   [](const PlatePiece& piece) { return piece.quantity == 0; });
     if (pieces.empty() && !diagnostics.has_errors()) {
-      diagnostics.error(
-          {}, fmt::format("'{}' orders nothing: all quantities are 0", table_));
+      diagnostics.error({},
+                        fmt::format("'{}' orders nothing: all quantities are 0",
+                                    from_.table));
     }
     return pieces;
   }
@@ -459,9 +439,7 @@ class PlateCommand : public Command {
                          context.temporary_files);
   }
 
-  std::vector<std::string> designs_;
-  std::string table_;
-  std::optional<unsigned> copies_;
+  OrderSources from_;
   std::optional<unsigned> turns_;
   slicer::Plate plate_ = {.gap = 2, .margin = 1};
   std::string map_;

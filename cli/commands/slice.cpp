@@ -14,7 +14,7 @@
 #include "base/similar.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/pieces.h"
+#include "cli/pieces/pieces.h"
 #include "cli/commands/watch.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
@@ -45,8 +45,9 @@ Usage:
   lamina parts FILE                       list the parts of a CAD file or a 3MF
   lamina config [DESIGN]                  show your own defaults of options
   lamina preflight DESIGN --metal METAL   say what a casting house asks
-  lamina printers                         list the printers that lamina knows
-  lamina materials                        list its resins and metals
+  lamina sprue DESIGN -o NEW.scad         write it with sprues for casting
+  lamina tree DESIGN... -o TREE.csg       set pieces on a trunk, for one flask
+  lamina printers, lamina materials       list those that lamina knows
 
 Output:
   -o FILE             the output, by its extension, or '-' for standard output;
@@ -55,8 +56,7 @@ Output:
                         .slc             layers for wax and resin printers
                         .cli             Common Layer Interface
                         .svg             polygons per layer, or a 2D design
-                        .png             a picture (ring.png), or a folder of
-                                         images (ring.png/)
+                        .png             a picture, or a folder of images (a.png/)
                         .sl1             images for Prusa's resin printers
                         .goo .ctb        images for printers of Elegoo, and with
                                          ChiTuBox's firmware (versions 2 to 4)
@@ -134,6 +134,7 @@ More of slicing:
                       N-th of that list
   --turn DEG          turn the design about the axis, anticlockwise seen from
                       above [0]
+  --place-on-bed      put the lowest point of the design at height 0
   --hollow-closing MM leave places of cavities solid that a ball of this radius
                       does not reach [0]
   --drain none|MM|X,Y,Z,MM

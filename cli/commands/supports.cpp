@@ -84,11 +84,9 @@ class SupportsCommand : public Command {
       const auto whole = compiler::look_at(session.compilation, {});
       const auto& plan = session.compilation.report.supports;
       if (!whole || !plan) return kFault;
-      // Where a direction was searched for, it has been found.
-      const compiler::GeometryRequest& geometry =
-          session.compilation.request.geometry;
-      compiler::write_file(output_, text_of(*plan, geometry),
-                           context.temporary_files);
+      compiler::write_file(
+          output_, text_with(session.compilation.request.design.appended),
+          context.temporary_files);
       if (session.compilation.report.direction) {
         session.terminal.say(direction_line(session.compilation.report));
       }
@@ -97,10 +95,8 @@ class SupportsCommand : public Command {
   }
 
  private:
-  std::string text_of(const slicer::SupportPlan& plan,
-                      const compiler::GeometryRequest& geometry) const {
-    const std::string part =
-        relative_path(request_.design.path, folder_of(output_));
+  // added  sprues and supports
+  std::string text_with(const std::string& added) const {
     // A design cannot take anything from what it includes.
     const std::string hollow = request_.hollow
                                    ? fmt::format(
@@ -109,11 +105,8 @@ class SupportsCommand : public Command {
                                          request_.hollow->wall)
                                    : "";
     return hollow +
-           (compiler::is_imported(request_.design.path)
-                ? compiler::import_of(part, request_.design.part) + "\n"
-                : fmt::format("include <{}>\n{}", part,
-                              request_.design.definitions)) +
-           compiler::support_lines(plan, geometry);
+           compiler::design_that_takes(request_.design, folder_of(output_)) +
+           added;
   }
 
   int tell(Terminal& terminal, const slicer::SupportPlan& plan,

@@ -28,6 +28,9 @@ std::vector<std::string> texts(const Words& words) {
 }
 
 // Of drains [mm].
+// Of the root of sprues, and their length [mm].
+constexpr double kLeastSprue = 0.5;
+constexpr double kGreatestSprue = 50;
 constexpr double kLeastDrain = 0.3;
 constexpr double kGreatestDrain = 20;
 
@@ -159,6 +162,30 @@ void add_drain(const std::string& text, slicer::HollowSizes& sizes) {
   }
 }
 
+// "4", "4,8", "disc"; "true" where nothing was given.
+slicer::SprueSizes sprues_of(const std::string& text) {
+  slicer::SprueSizes sizes;
+  std::vector<double> lengths;
+  for (const std::string& word : words_of(text)) {
+    if (word == "true") continue;
+    if (word == "disc") {
+      sizes.has_disc = true;
+      continue;
+    }
+    const auto length = parse_number(word);
+    require(length && *length >= kLeastSprue && *length <= kGreatestSprue &&
+                lengths.size() < 2,
+            "--sprue",
+            "expected the diameter of the root and the length, {:g} to {:g} "
+            "mm, and ,disc for a disc, such as 4,8,disc; got '{}'",
+            kLeastSprue, kGreatestSprue, text);
+    lengths.push_back(*length);
+  }
+  if (!lengths.empty()) sizes.root = lengths[0];
+  if (lengths.size() == 2) sizes.length = lengths[1];
+  return sizes;
+}
+
 // words  "islands,loose-parts", "all"
 void add_findings(const std::string& words, slicer::PrintRules& rules) {
   for (const std::string& word : words_of(words)) {
@@ -261,6 +288,9 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.number("--turn", "degrees", request.geometry.turn);
   options.flag("--supports", [&request](const std::string& size) {
     request.supports = sizes_of(size);
+  });
+  options.flag("--sprue", [&request](const std::string& sizes) {
+    request.sprues = sprues_of(sizes);
   });
   options.text("--support-on", "lines", [&request](const std::string& text) {
     request.support_lines.only = lines_of("--support-on", text);

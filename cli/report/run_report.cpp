@@ -171,11 +171,13 @@ Json paper_json(const slicer::SliceReport& slice, ldni::SamplerKind sampler) {
           {"repaired_pixels", paper.repaired_pixels}};
 }
 
+Json place_json(Vec3 place) { return Json{place.x, place.y, place.z}; }
+
 Json hollow_json(const slicer::HollowReport& hollow) {
   Json drains = Json::array();
   for (const slicer::Drain& drain : hollow.drains) {
-    drains.push_back({{"from", Json{drain.from.x, drain.from.y, drain.from.z}},
-                      {"to", Json{drain.to.x, drain.to.y, drain.to.z}},
+    drains.push_back({{"from", place_json(drain.from)},
+                      {"to", place_json(drain.to)},
                       {"diameter_mm", number(drain.diameter)}});
   }
   return {{"cavities", hollow.cavities},
@@ -183,6 +185,27 @@ Json hollow_json(const slicer::HollowReport& hollow) {
           {"saved_mm3", number(hollow.saved_volume)},
           {"solid_mm3", number(hollow.solid_volume)},
           {"drains", std::move(drains)}};
+}
+
+Json sprues_json(const slicer::SpruePlan& plan) {
+  Json sprues = Json::array();
+  for (const slicer::Sprue& sprue : plan.sprues) {
+    sprues.push_back({{"gate", place_json(sprue.gate)},
+                      {"diameter_mm", number(sprue.diameter)},
+                      {"feeds_mm3", number(sprue.feeds)},
+                      {"at", sprue.at}});
+  }
+  Json unfed = Json::array();
+  for (const slicer::Pool& pool : plan.unfed) {
+    unfed.push_back({{"place", place_json(pool.place)},
+                     {"thickness_mm", number(pool.thickness)},
+                     {"volume_mm3", number(pool.volume)}});
+  }
+  return {{"root", place_json(plan.root)},
+          {"root_diameter_mm", number(plan.root_diameter)},
+          {"volume_mm3", number(plan.volume())},
+          {"sprues", std::move(sprues)},
+          {"unfed", std::move(unfed)}};
 }
 
 // whole  what the whole program took; empty for one compilation among several
@@ -205,6 +228,7 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
         {"judged", direction->judged}};
   }
   if (report.hollow) json["hollow"] = hollow_json(*report.hollow);
+  if (report.sprues) json["sprues"] = sprues_json(*report.sprues);
   if (const auto& measures = report.slice.supports) {
     json["supports"] = supports_json(*measures, report.lines.contacts);
   }
@@ -244,6 +268,10 @@ std::string print_line(const compiler::Report& report,
   return is_any ? fmt::format("\nprint: {}; for where, run:\n  {}", counts,
                               check())
                 : fmt::format("\nprint: {}", counts);
+}
+
+std::string sprues_line(const compiler::Report& report) {
+  return report.sprues ? "\nsprues: " + size_text(*report.sprues) : "";
 }
 
 std::string supports_line(const compiler::Report& report) {
@@ -300,7 +328,7 @@ std::string summary_line(const compiler::Compilation& compilation,
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
-      "{}: {}, {}, {}, {}{}{}{}{}{}{}{}\n"
+      "{}: {}, {}, {}, {}{}{}{}{}{}{}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, graph {:.3f}, output {:.3f}), {} of "
       "memory, {:.3f} s by the clock",
@@ -311,7 +339,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       slice.box.is_empty() ? "" : ", " + size_text(slice.box.size()),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
       machine_line(report), oriented_line(report), hollow_line(report),
-      supports_line(report), print_line(report, check),
+      sprues_line(report), supports_line(report), print_line(report, check),
       process_seconds() - earlier_seconds, report.load_seconds,
       report.evaluate_seconds, report.lower_seconds, section_seconds(report),
       slice.sweep_seconds, slice.graph_seconds, slice.output_seconds,

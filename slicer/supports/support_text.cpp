@@ -7,10 +7,13 @@
 #include <fmt/ranges.h>
 
 #include "base/text.h"
+#include "csg/design_text.h"
 #include "slicer/supports/raft_label.h"
 
 namespace lamina::slicer {
 namespace {
+
+using csg::design_text;
 
 // All of it is in one module, so that no name of the design means anything
 // else.
@@ -99,19 +102,6 @@ constexpr const char* kLabeledRaftModule = R"(
   }
 )";
 
-// "1.5", "0.125": as short as a micrometre allows.
-std::string word(double value) {
-  std::string text = fmt::format("{:.3f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text == "-0" ? "0" : text;
-}
-
-std::string words(Vec3 place) {
-  return fmt::format("[{}, {}, {}]", word(place.x), word(place.y),
-                     word(place.z));
-}
-
 class TextMaker {
  public:
   explicit TextMaker(const SupportPlan& plan) : plan_(plan) {}
@@ -120,7 +110,7 @@ class TextMaker {
     add_head();
     for (const Support& support : plan_.supports) add_support(support);
     for (const auto& [from, to] : plan_.braces) {
-      add("  support_brace({}, {});\n", words(from), words(to));
+      add("  support_brace({}, {});\n", design_text(from), design_text(to));
     }
     if (plan_.sizes.has_raft) add_raft();
     text_ += "}\n";
@@ -169,14 +159,15 @@ class TextMaker {
   void add_support(const Support& support) {
     text_ += "  support_of([";
     for (std::size_t i = 0; i < support.path.size(); ++i) {
-      text_ += (i == 0 ? "" : ", ") + words(support.path[i]);
+      text_ += (i == 0 ? "" : ", ") + design_text(support.path[i]);
     }
     text_ += ']';
     if (support.end == SupportEnd::kPart) text_ += ", lands = true";
     if (support.end == SupportEnd::kPillar) text_ += ", joins = true";
-    if (support.tip != plan_.sizes.tip) add(", tip = {}", word(support.tip));
+    if (support.tip != plan_.sizes.tip)
+      add(", tip = {}", design_text(support.tip));
     if (support.depth != support.tip / 2) {
-      add(", depth = {}", word(support.depth));
+      add(", depth = {}", design_text(support.depth));
     }
     text_ += ");";
     if (!support.holds.empty()) add("  // {}", support.holds);
@@ -190,7 +181,7 @@ class TextMaker {
       if (support.end != SupportEnd::kFoot) continue;
       const Vec3 foot = support.path.back();
       text_ += is_first ? "" : ", ";
-      text_ += words({foot.x, foot.y, plan_.bed});
+      text_ += design_text({foot.x, foot.y, plan_.bed});
       is_first = false;
     }
     text_ += ']';
@@ -199,13 +190,14 @@ class TextMaker {
   }
 
   void add_label(const RaftLabel& label) {
-    add(", {}, [{}, {}]", in_quotes(label.text), word(label.origin.x),
-        word(label.origin.y));
+    add(", {}, [{}, {}]", in_quotes(label.text), design_text(label.origin.x),
+        design_text(label.origin.y));
     if (label.is_upright) text_ += ", turn = 90";
     if (!label.tab) return;
     const Vec2 size = label.tab->high - label.tab->low;
-    add(", tab = [{}, {}, {}, {}]", word(label.tab->low.x),
-        word(label.tab->low.y), word(size.x), word(size.y));
+    add(", tab = [{}, {}, {}, {}]", design_text(label.tab->low.x),
+        design_text(label.tab->low.y), design_text(size.x),
+        design_text(size.y));
   }
 
   const SupportPlan& plan_;

@@ -1,6 +1,7 @@
 #include "slicer/thickness/feeding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -196,6 +197,16 @@ class Flood {
 };
 
 }  // namespace
+
+SolidSamples sample_casting(const csg::Scene& scene) {
+  constexpr double kFirstCells = 3e5;  // of the box, to know the volume
+  constexpr double kCells = 2e5;       // of the solid
+  const Vec3 size = glm::max(scene.box.size(), Vec3(kLeastRadius));
+  const double first = std::cbrt(size.x * size.y * size.z / kFirstCells);
+  const SolidSamples coarse = sample_solid(scene, first);
+  const double filled = static_cast<double>(coarse.cells.size()) / kCells;
+  return filled > 0 ? sample_solid(scene, first * std::cbrt(filled)) : coarse;
+}
 
 ThicknessField measure_thickness(const SolidSamples& samples,
                                  const BallFinder& balls) {

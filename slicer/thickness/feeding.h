@@ -39,6 +39,10 @@ struct ThicknessField {
 // Half the diagonal of a cell [pitches].
 inline constexpr double kReach = 0.8660254037844386;
 
+// The solid, sampled finely enough to see what feeds what: in a ring the cells
+// are a tenth of a millimetre wide.
+SolidSamples sample_casting(const csg::Scene& scene);
+
 ThicknessField measure_thickness(const SolidSamples& samples,
                                  const BallFinder& balls);
 

@@ -1,6 +1,6 @@
 // Shares of a table, ledgers, and going on where a batch was cut short.
 
-#include "cli/commands/ledger.h"
+#include "cli/pieces/ledger.h"
 
 #include <algorithm>
 #include <chrono>

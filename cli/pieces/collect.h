@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands/pieces.h"
+#include "cli/pieces/pieces.h"
 
 namespace lamina::cli {
 

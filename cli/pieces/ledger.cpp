@@ -1,4 +1,4 @@
-#include "cli/commands/ledger.h"
+#include "cli/pieces/ledger.h"
 
 #include <algorithm>
 #include <utility>

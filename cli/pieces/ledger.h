@@ -34,8 +34,8 @@
 #include "base/file/append_file.h"
 #include "base/file/file_access.h"
 #include "base/file/open_file.h"
-#include "cli/commands/outcomes.h"
-#include "cli/commands/pieces.h"
+#include "cli/pieces/outcomes.h"
+#include "cli/pieces/pieces.h"
 #include "compiler/compilation.h"
 
 namespace lamina::cli {

@@ -1,4 +1,4 @@
-#include "cli/commands/pieces.h"
+#include "cli/pieces/pieces.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/paths.h"
-#include "cli/commands/ledger.h"
-#include "cli/commands/outcomes.h"
+#include "cli/pieces/ledger.h"
+#include "cli/pieces/outcomes.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/run_on_stack.h"

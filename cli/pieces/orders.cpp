@@ -1,4 +1,4 @@
-#include "cli/commands/orders.h"
+#include "cli/pieces/orders.h"
 
 #include <map>
 #include <utility>
@@ -7,8 +7,10 @@
 
 #include "base/file/csv.h"
 #include "base/paths.h"
-#include "cli/commands/piece_table.h"
 #include "cli/options/option_values.h"
+#include "cli/options/output_pattern.h"
+#include "cli/pieces/piece_table.h"
+#include "compiler/validate.h"
 #include "parser/cell.h"
 
 namespace lamina::cli {
@@ -143,15 +145,33 @@ class OrderReader {
 
 }  // namespace
 
-std::vector<Order> read_orders(const std::string& table,
+void check(const OrderSources& from, std::string_view command) {
+  compiler::refuse_if(from.designs.empty() && from.table.empty(),
+                      "{} needs a design or --table", command);
+  compiler::refuse_if(
+      from.designs.size() > 1 && !from.table.empty(),
+      "with --table one design at most: that of rows without one");
+  compiler::refuse_if(from.copies && !from.table.empty(),
+                      "--copies is the table's column 'quantity'");
+}
+
+std::vector<Order> read_orders(const OrderSources& from,
                                const compiler::Request& request,
                                const FileAccess& access, SourceStore& sources,
                                Diagnostics& diagnostics) {
-  std::vector<Order> orders =
-      OrderReader(table, request, access, sources, diagnostics).read_all();
+  std::vector<Order> orders;
+  if (from.table.empty()) {
+    for (const std::string& design : from.designs) {
+      orders.push_back({stem(design), request, from.copies.value_or(1)});
+      orders.back().request.design.path = design;
+    }
+    return orders;
+  }
+  orders =
+      OrderReader(from.table, request, access, sources, diagnostics).read_all();
   if (orders.empty()) {
-    diagnostics.error({},
-                      fmt::format("'{}' has no rows below its header", table));
+    diagnostics.error(
+        {}, fmt::format("'{}' has no rows below its header", from.table));
   }
   return orders;
 }

@@ -1,4 +1,4 @@
-#include "cli/commands/outcomes.h"
+#include "cli/pieces/outcomes.h"
 
 #include <algorithm>
 

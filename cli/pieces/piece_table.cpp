@@ -1,4 +1,4 @@
-#include "cli/commands/piece_table.h"
+#include "cli/pieces/piece_table.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file/output_file.h"
-#include "cli/commands/pieces.h"
+#include "cli/pieces/pieces.h"
 #include "cli/report/json_list.h"
 #include "compiler/compilation.h"
 

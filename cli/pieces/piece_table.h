@@ -22,7 +22,7 @@
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
 #include "base/source.h"
-#include "cli/commands/pieces.h"
+#include "cli/pieces/pieces.h"
 #include "compiler/request.h"
 #include "parser/customizer/definitions.h"
 

@@ -9,7 +9,9 @@
 // command line decides, and one piece is made.
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -18,6 +20,16 @@
 #include "compiler/request.h"
 
 namespace lamina::cli {
+
+// Where orders come from: a table, or so many copies of each design.
+struct OrderSources {
+  std::vector<std::string> designs;
+  std::string table;  // path; empty: none
+  std::optional<unsigned> copies;
+};
+
+// Throws RequestError where they do not go together.
+void check(const OrderSources& sources, std::string_view command);
 
 struct Order {
   std::string name;
@@ -29,7 +41,7 @@ struct Order {
 //
 // request  of all orders; its design is that of rows that name none
 // throws   Error where the table or a design cannot be read
-std::vector<Order> read_orders(const std::string& table,
+std::vector<Order> read_orders(const OrderSources& from,
                                const compiler::Request& request,
                                const FileAccess& access, SourceStore& sources,
                                Diagnostics& diagnostics);

@@ -1,4 +1,4 @@
-#include "cli/commands/collect.h"
+#include "cli/pieces/collect.h"
 
 #include <cstdint>
 #include <memory>
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "cli/commands/ledger.h"
-#include "cli/commands/outcomes.h"
+#include "cli/pieces/ledger.h"
+#include "cli/pieces/outcomes.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/json_list.h"
 #include "cli/report/session.h"

@@ -1,0 +1,121 @@
+// lamina sprue: a design with sprues, as a design.
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/paths.h"
+#include "base/text.h"
+#include "cli/commands/commands.h"
+#include "cli/options/design_options.h"
+#include "cli/process/exit_status.h"
+#include "cli/report/session.h"
+#include "compiler/compile.h"
+#include "compiler/sprues.h"
+#include "compiler/stage_text.h"
+#include "compiler/validate.h"
+
+namespace lamina::cli {
+namespace {
+
+constexpr std::string_view kSprueHelp =
+    R"(Usage: lamina sprue DESIGN -o SPRUED.scad [OPTION]...
+
+Writes DESIGN with sprues as an OpenSCAD design: it includes or imports DESIGN
+and adds a line for each sprue, which you can edit, move or leave out. A sprue
+runs straight from a common root to the middle of the heaviest place, and is as
+wide there as that place is thick; where thin places cut other heavy ones off,
+these get sprues of their own. They come out where $visible is not set.
+
+The written design is measured, too: what metal that enters by the root would
+still reach only through thinner places is listed.
+
+  -o FILE             the design to write
+  --sprue=D[,LENGTH][,disc]
+                      diameter of the root, and how far from the piece it is at
+                      least, in mm; disc adds a plate for the piece to stand on
+                      [1.8 times the thickest place, 5]
+
+All options of Design are those of 'lamina --help', and so are --chordal-error
+and --decimate. Slicing takes --sprue, too, and adds the same sprues in the run.
+
+  -q, --quiet         print errors only
+  -h, --help          print this help
+)";
+
+class SprueCommand : public Command {
+ public:
+  std::string_view help() const override { return kSprueHelp; }
+
+  void add_options(OptionList& options) override {
+    request_.sprues.emplace();
+    options.word("design", request_.design.path).required();
+    options.name("-o", "file", output_).required();
+    add_design_options(options, request_, is_quiet_);
+    add_slicing_options(options, request_);
+  }
+
+  void check() override {
+    refuse_if(!output_.ends_with(".scad"),
+              "sprue writes a .scad design, but '{}' does not end in .scad",
+              output_);
+    refuse_if(!request_.design.parameter_file.empty(),
+              "sprue takes values from -D, not from -p and -P");
+    refuse_if(request_.supports.has_value(),
+              "supports come last: lamina supports SPRUED.scad");
+    compiler::validate(request_);
+    // The written design has the piece as it is drawn.
+    request_.geometry = compiler::as_drawn(request_.geometry);
+  }
+
+  int run(const Context& context) override {
+    Session session(request_, is_quiet_, context);
+    return session.run([&] {
+      context.expect_outputs({output_});
+      const auto lowered = compiler::make_geometry(session.compilation);
+      const auto& plan = session.compilation.report.sprues;
+      if (!lowered || !plan) return kFault;
+      compiler::write_file(
+          output_,
+          compiler::design_that_takes(request_.design, folder_of(output_)) +
+              session.compilation.request.design.appended,
+          context.temporary_files);
+      tell(session.terminal, *plan,
+           compiler::unfed_by(*lowered->scene(), plan->root));
+      return kDone;
+    });
+  }
+
+ private:
+  void tell(Terminal& terminal, const slicer::SpruePlan& plan,
+            const std::vector<slicer::Pool>& unfed) const {
+    std::string text =
+        fmt::format("{}: {}", on_one_line(output_), slicer::size_text(plan));
+    for (const slicer::Sprue& sprue : plan.sprues) {
+      text += fmt::format(
+          "\n{:.2f} mm wide, on {:.2f} mm, at {:.2f}, {:.2f}, {:.2f}: feeds "
+          "{:.3g} mm³{}",
+          sprue.diameter, sprue.thickness, sprue.gate.x, sprue.gate.y,
+          sprue.gate.z, sprue.feeds,
+          sprue.at.empty() ? "" : ", at " + sprue.at);
+    }
+    const std::string left = slicer::unfed_text(unfed);
+    terminal.say(text + "\nwith them: " +
+                 (left.empty() ? "all is fed from the root" : left));
+  }
+
+  compiler::Request request_;
+  std::string output_;
+  bool is_quiet_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_sprue_command() {
+  return std::make_unique<SprueCommand>();
+}
+
+}  // namespace lamina::cli

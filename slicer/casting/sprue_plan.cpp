@@ -1,0 +1,348 @@
+#include "slicer/casting/sprue_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <set>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "base/parallel.h"
+#include "base/text.h"
+
+namespace lamina::slicer {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A sprue may end in a ball that is smaller than the thickest of its pool by
+// this share, for the way between is as thick: find_pools() lets pass more.
+constexpr double kLetPass = 0.06;
+// So many balls of a pool are tried, in so many directions.
+constexpr std::size_t kMostEnds = 24;
+constexpr std::size_t kDirections = 192;
+
+// A rod leaves the piece by this share of the way that it goes, at least, until
+// it is kClearance from it [mm]: at 45° or steeper.
+constexpr double kLeastRise = 0.7;
+constexpr double kClearance = 1;
+// It comes out of the piece within so many radii of its ball.
+constexpr double kMostInside = 2.5;
+// The way is looked at in steps of this share of its radius.
+constexpr double kStep = 0.5;
+
+double cone_volume(double length, double d1, double d2) {
+  return std::numbers::pi / 12 * length * (d1 * d1 + d1 * d2 + d2 * d2);
+}
+
+// Directions that are spread over the sphere evenly: Vogel's spiral.
+std::vector<Vec3> directions() {
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Vec3> all = {{0, 0, -1}, {0, 0, 1},  {0, -1, 0},
+                           {0, 1, 0},  {-1, 0, 0}, {1, 0, 0}};
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    const double z = 1 - (2.0 * static_cast<double>(i) + 1) / kDirections;
+    const double r = std::sqrt(1 - z * z);
+    const double turn = golden * static_cast<double>(i);
+    all.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
+  }
+  return all;
+}
+
+// What has to be fed, and the balls in which a sprue for it may end.
+struct Target {
+  Pool pool;
+  std::vector<Ball> ends;
+};
+
+// A straight way out of a ball.
+struct Way {
+  Vec3 gate = Vec3(0);
+  std::uint32_t instance = 0;  // of the surface there
+  bool is_seen = false;
+};
+
+struct Choice {
+  double cost = kInfinity;
+  Vec3 root = Vec3(0);
+  Vec3 direction = Vec3(0);
+  std::vector<Sprue> sprues = {};
+};
+
+class SpruePlanner {
+ public:
+  SpruePlanner(const SolidSamples& samples, const BallFinder& balls,
+               const ThicknessField& field, const SprueSizes& sizes,
+               const std::function<bool(std::uint32_t)>& is_visible)
+      : samples_(samples),
+        balls_(balls),
+        field_(field),
+        sizes_(sizes),
+        is_visible_(is_visible) {}
+
+  std::optional<SpruePlan> plan() {
+    find_targets();
+    // What cannot be fed along with the rest, the smallest first, is left.
+    while (!targets_.empty()) {
+      const Choice choice = choose();
+      if (choice.cost < kInfinity) return finish(choice);
+      targets_.pop_back();
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void find_targets() {
+    std::vector<Pool> pools = find_pools(samples_, balls_, field_, {});
+    // The thickest is the one that is fed without a gate.
+    std::ranges::stable_partition(pools,
+                                  [](const Pool& pool) { return pool.is_fed; });
+    double whole = 0;
+    for (const Pool& pool : pools) whole += pool.volume;
+    for (const Pool& pool : pools) {
+      const bool counts =
+          targets_.empty() || pool.volume >= kLeastFedShare * whole;
+      if (!counts || targets_.size() == kMostSprues) continue;
+      targets_.push_back({pool, ends_of(pool)});
+      thickest_ = std::max(thickest_, pool.thickness);
+    }
+    root_diameter_ =
+        sizes_.root > 0 ? sizes_.root : kRootShare * kGateShare * thickest_;
+  }
+
+  // Balls about as large as that of the pool, which one can reach from there
+  // without coming through a thinner place.
+  std::vector<Ball> ends_of(const Pool& pool) const {
+    const SolidCells& cells = samples_.cells;
+    const double least = (1 - kLetPass) * pool.thickness / 2;
+    std::vector<SolidCells::Index> found;
+    std::set<std::uint32_t> seen;
+    std::queue<SolidCells::Index> next;
+    const auto visit = [&](const SolidCells::Index& index) {
+      const auto cell = cells.find(index);
+      if (!cell || field_.radii[*cell] < least) return;
+      if (!seen.insert(*cell).second) return;
+      next.push(index);
+      found.push_back(index);
+    };
+    visit(cells.index_at(pool.place));
+    while (!next.empty()) {
+      const SolidCells::Index at = next.front();
+      next.pop();
+      for (int i = 0; i < 27; ++i) {
+        visit({at.x + i / 9 - 1, at.y + i / 3 % 3 - 1, at.z + i % 3 - 1});
+      }
+    }
+    std::vector<Ball> ends = {balls_.climb(pool.place, 2 * cells.pitch())};
+    const std::size_t step = std::max<std::size_t>(1, found.size() / kMostEnds);
+    for (std::size_t i = 0; i < found.size(); i += step) {
+      const Ball ball =
+          balls_.climb(cells.middle_of(found[i]), 2 * cells.pitch());
+      if (ball.radius >= least) ends.push_back(ball);
+    }
+    return ends;
+  }
+
+  bool is_inside(Vec3 place) const {
+    return samples_.cells.find(samples_.cells.index_at(place)).has_value();
+  }
+
+  // The straight way from a ball to the root, if it gets out at once and stays
+  // away from the piece then.
+  std::optional<Way> way_out(const Ball& end, Vec3 root) const {
+    const double length = glm::distance(end.centre, root);
+    const Vec3 along = (root - end.centre) / length;
+    const double step = kStep * std::max(end.radius, samples_.pitch);
+    double out = end.radius;
+    while (is_inside(end.centre + out * along)) {
+      out += samples_.pitch;
+      if (out > kMostInside * end.radius + samples_.pitch) return std::nullopt;
+    }
+    const double slack = 2 * samples_.pitch;
+    for (double s = out + step; s < length; s += step) {
+      const double radius =
+          glm::mix(kGateShare * end.radius, root_diameter_ / 2, s / length);
+      const double wanted =
+          std::min(kLeastRise * (s - out) - slack, radius + kClearance);
+      if (wanted <= 0) continue;
+      const Vec3 place = end.centre + s * along;
+      if (is_inside(place) || balls_.nearest(place, wanted)) {
+        return std::nullopt;
+      }
+    }
+    return way_at(end.centre + out * along, end.radius);
+  }
+
+  Way way_at(Vec3 gate, double radius) const {
+    Way way{.gate = gate};
+    if (const auto nearest = balls_.nearest(gate, kInfinity)) {
+      way.instance = samples_.points[nearest->point].instance;
+      way.gate = samples_.points[nearest->point].place;
+    }
+    way.is_seen = std::ranges::any_of(
+        balls_.points_within(gate, kGateShare * radius),
+        [&](std::uint32_t point) {
+          return is_visible_(samples_.points[point].instance);
+        });
+    return way;
+  }
+
+  // The cheapest sprue from a target to the root.
+  std::optional<Sprue> sprue_to(const Target& target, Vec3 root,
+                                double& cost) const {
+    std::optional<Sprue> best;
+    double least = kInfinity;
+    for (const Ball& end : target.ends) {
+      const double length = glm::distance(end.centre, root);
+      const double diameter = 2 * kGateShare * end.radius;
+      double own = cone_volume(length, diameter, root_diameter_);
+      if (own >= least) continue;
+      const auto way = way_out(end, root);
+      if (!way) continue;
+      if (way->is_seen) own += seen_cost();
+      if (own >= least) continue;
+      least = own;
+      // As deep in the piece as the ball there, and wider.
+      const Vec3 along = (root - end.centre) / length;
+      best = Sprue{.end = end.centre + (diameter / 2 - end.radius) * along,
+                   .diameter = diameter,
+                   .thickness = 2 * end.radius,
+                   .gate = way->gate,
+                   .feeds = target.pool.volume,
+                   .instance = way->instance,
+                   .is_seen = way->is_seen};
+    }
+    cost += least;
+    return best;
+  }
+
+  // More than any sprue that is not seen.
+  double seen_cost() const {
+    const double far =
+        4 * (glm::length(box_.size()) + sizes_.length + root_diameter_);
+    return cone_volume(far, root_diameter_, root_diameter_);
+  }
+
+  Choice try_root(Vec3 root, Vec3 direction, double best) const {
+    Choice choice{.cost = 0, .root = root, .direction = direction};
+    for (const Target& target : targets_) {
+      const auto sprue = sprue_to(target, root, choice.cost);
+      if (!sprue || choice.cost >= best) return {};
+      choice.sprues.push_back(*sprue);
+    }
+    return choice;
+  }
+
+  Choice choose_in(Vec3 direction) const {
+    double height = -kInfinity;
+    for (const SurfacePoint& point : samples_.points) {
+      height = std::max(height, glm::dot(point.place, direction));
+    }
+    height += sizes_.length;
+    std::vector<Vec3> middles;
+    for (const Ball& end : targets_.front().ends) {
+      middles.push_back(end.centre);
+    }
+    if (targets_.size() > 1) {
+      Vec3 sum(0);
+      for (const Target& target : targets_) sum += target.pool.place;
+      middles.push_back(sum / static_cast<double>(targets_.size()));
+    }
+    Choice best;
+    for (const Vec3 middle : middles) {
+      const Vec3 root =
+          middle + (height - glm::dot(middle, direction)) * direction;
+      Choice choice = try_root(root, direction, best.cost);
+      if (choice.cost < best.cost) best = std::move(choice);
+    }
+    return best;
+  }
+
+  Choice choose() {
+    for (const SurfacePoint& point : samples_.points) box_.add(point.place);
+    const std::vector<Vec3> all = directions();
+    std::vector<Choice> choices(all.size());
+    for_each_index(all.size(),
+                   [&](std::size_t i) { choices[i] = choose_in(all[i]); });
+    return *std::ranges::min_element(choices, {}, &Choice::cost);
+  }
+
+  SpruePlan finish(const Choice& choice) const {
+    SpruePlan plan;
+    plan.root = choice.root;
+    plan.root_diameter = root_diameter_;
+    plan.direction = choice.direction;
+    plan.has_disc = sizes_.has_disc;
+    plan.sprues = choice.sprues;
+    std::vector<Gate> gates;
+    for (const Sprue& sprue : plan.sprues) gates.push_back({sprue.end, 0});
+    plan.unfed = unfed_of(find_pools(samples_, balls_, field_, gates));
+    return plan;
+  }
+
+  const SolidSamples& samples_;
+  const BallFinder& balls_;
+  const ThicknessField& field_;
+  const SprueSizes sizes_;
+  const std::function<bool(std::uint32_t)>& is_visible_;
+  std::vector<Target> targets_;  // the thickest first, then by volume
+  double thickest_ = 0;          // [mm]
+  double root_diameter_ = 0;     // [mm]
+  Box3 box_;
+};
+
+}  // namespace
+
+double SpruePlan::volume() const {
+  double volume = 0;
+  for (const Sprue& sprue : sprues) {
+    const double whole = glm::distance(sprue.end, root);
+    const double inside = glm::distance(sprue.end, sprue.gate);
+    const double at_gate =
+        glm::mix(sprue.diameter, root_diameter, inside / whole);
+    volume += cone_volume(whole - inside, at_gate, root_diameter);
+  }
+  return volume;
+}
+
+std::vector<Pool> unfed_of(std::vector<Pool> pools) {
+  double whole = 0;
+  for (const Pool& pool : pools) whole += pool.volume;
+  std::erase_if(pools, [&](const Pool& pool) {
+    return pool.is_fed || pool.volume < kLeastUnfedShare * whole;
+  });
+  return pools;
+}
+
+std::string unfed_text(std::span<const Pool> pools) {
+  if (pools.empty()) return {};
+  double volume = 0;
+  for (const Pool& pool : pools) volume += pool.volume;
+  const Pool& most = pools.front();
+  return fmt::format(
+      "not fed but through thinner places: {} of {:.3g} mm³ in all, the "
+      "largest {:.2f} mm thick at {:.2f}, {:.2f}, {:.2f} by way of {:.2f} mm",
+      counted(pools.size(), "place"), volume, most.thickness, most.place.x,
+      most.place.y, most.place.z, most.neck_thickness);
+}
+
+std::string size_text(const SpruePlan& plan) {
+  std::string text = fmt::format("{}, root {:.2f} mm wide, {:.3g} mm³",
+                                 counted(plan.sprues.size(), "sprue"),
+                                 plan.root_diameter, plan.volume());
+  const std::string unfed = unfed_text(plan.unfed);
+  return unfed.empty() ? text : text + "; " + unfed;
+}
+
+std::optional<SpruePlan> plan_sprues(
+    const SolidSamples& samples, const BallFinder& balls,
+    const ThicknessField& field, const SprueSizes& sizes,
+    const std::function<bool(std::uint32_t instance)>& is_visible) {
+  return SpruePlanner(samples, balls, field, sizes, is_visible).plan();
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,181 @@
+// lamina sprue, --sprue and lamina tree.
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/lamina.h"
+#include "tests/support/text.h"
+
+namespace lamina::cli {
+namespace {
+
+using nlohmann::json;
+using support::has;
+using support::read_file;
+using support::TemporaryFolder;
+
+// Two balls on a rod that freezes first.
+constexpr const char* kDumbbell =
+    "for (x = [-8, 8]) translate([x, 0, 0]) sphere(3, $fn = 64);\n"
+    "rotate([0, 90, 0]) cylinder(r = 1, h = 16, center = true, $fn = 64);\n";
+
+bool exists(const TemporaryFolder& folder, const std::string& name) {
+  return std::filesystem::exists(folder.file(name));
+}
+
+json report_of(const TemporaryFolder& folder, std::vector<std::string> words) {
+  for (const char* word : {"-o", "o.slc", "--report", "o.json"}) {
+    words.emplace_back(word);
+  }
+  const auto result = run(folder, words);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return json::parse(read_file(folder.file("o.json")));
+}
+
+TEST(Sprue, WritesADesignThatIsFed) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kDumbbell);
+  const auto result = run(folder, {"sprue", "a.scad", "-o", "b.scad"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(has(result.errors, "2 sprues")) << result.errors;
+  EXPECT_TRUE(has(result.errors, "with them: all is fed from the root"));
+  EXPECT_TRUE(has(result.errors, "a.scad:1:41"));
+  const std::string text = read_file(folder.file("b.scad"));
+  EXPECT_TRUE(text.starts_with("include <a.scad>\n"));
+  // The run that adds them itself makes the same bytes.
+  ASSERT_EQ(run(folder, {"b.scad", "-o", "b.slc"}).status, 0);
+  ASSERT_EQ(run(folder, {"a.scad", "--sprue", "-o", "a.slc"}).status, 0);
+  EXPECT_EQ(read_file(folder.file("a.slc")), read_file(folder.file("b.slc")));
+  // Preflight sees it, too, and takes the root for the gate.
+  EXPECT_EQ(run(folder, {"preflight", "a.scad", "--metal", "sterling-silver",
+                         "-o", "a.json"})
+                .status,
+            0);
+  EXPECT_EQ(json::parse(read_file(folder.file("a.json")))["unfed"].size(), 1U);
+  run(folder,
+      {"preflight", "b.scad", "--metal", "sterling-silver", "-o", "b.json"});
+  EXPECT_TRUE(json::parse(read_file(folder.file("b.json")))["unfed"].empty());
+  // A second set of sprues is not what one means.
+  EXPECT_EQ(run(folder, {"sprue", "b.scad", "-o", "c.scad"}).status, 1);
+}
+
+TEST(Sprue, IsReportedAndSized) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(5);");
+  const json plain = report_of(folder, {"a.scad"});
+  const json sprued = report_of(folder, {"a.scad", "--sprue=7,9,disc"});
+  EXPECT_FALSE(plain.contains("sprues"));
+  const json& sprues = sprued["sprues"];
+  EXPECT_EQ(sprues["root_diameter_mm"], 7);
+  EXPECT_EQ(sprues["sprues"].size(), 1U);
+  EXPECT_NEAR(sprues["sprues"][0]["feeds_mm3"].get<double>(), 125, 2);
+  EXPECT_TRUE(sprues["unfed"].empty());
+  // Piece, rod and disc, of which the root's ball is a part.
+  const double disc = M_PI * 21 * 21 / 4 * 1.5;
+  const double ball = M_PI * 343 / 6;
+  const double added =
+      sprued["volume_mm3"].get<double>() - plain["volume_mm3"].get<double>();
+  EXPECT_GT(added, disc + sprues["volume_mm3"].get<double>() - 0.1 * ball);
+  EXPECT_LT(added, disc + sprues["volume_mm3"].get<double>() + 0.6 * ball);
+}
+
+// Supports hold sprues as well, and scales enlarge them.
+TEST(Sprue, GoesWithSupportsScalesAndDirections) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kDumbbell);
+  const json report =
+      report_of(folder, {"a.scad", "--sprue", "--supports", "--scale", "1.02",
+                         "--orient", "1,0,1", "--layer", "0.1"});
+  EXPECT_EQ(report["sprues"]["sprues"].size(), 2U);
+  EXPECT_GT(report["supports"]["count"].get<int>(), 0);
+  EXPECT_EQ(report["supports"]["unheld"], 0);
+}
+
+TEST(Sprue, RefusesWhatHasNoWayOutOrNoVolume) {
+  const TemporaryFolder folder;
+  folder.write("flat.scad", "square(5);");
+  folder.write(
+      "shell.scad",
+      "$fn = 48; difference() { sphere(10); sphere(9.5); } sphere(5);");
+  folder.write("wrong.scad", "cube(;");
+  for (const char* design : {"flat", "shell", "wrong"}) {
+    const auto result =
+        run(folder, {"sprue", std::string(design) + ".scad", "-o", "o.scad"});
+    EXPECT_EQ(result.status, 1) << design;
+    EXPECT_FALSE(result.errors.empty());
+    EXPECT_FALSE(exists(folder, "o.scad")) << design;
+  }
+  folder.write("a.scad", "cube(5);");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{
+           {"sprue", "a.scad", "-o", "o.slc"},
+           {"a.scad", "--sprue=0.1"},
+           {"a.scad", "--sprue=4,8,9"},
+           {"a.scad", "--sprue=thick"},
+           {"a.scad", "--sprue", "--hollow", "1"},
+           {"a.scad", "--scale", "1,2"},
+           {"a.scad", "--scale", "1,1,2", "--axis", "auto"},
+           {"tree", "a.scad", "-o", "t.scad"},
+           {"tree", "a.scad", "-o", "t.scad", "--flask", "20,20"},
+           {"tree", "a.scad", "-o", "t.scad", "--flask", "80"},
+           {"tree", "a.scad", "-o", "t.slc", "--flask", "80,100"},
+           {"tree", "a.scad", "-o", "{name}.scad", "--flask", "80,100"},
+           {"tree", "-o", "t.scad", "--flask", "80,100"},
+       }) {
+    EXPECT_EQ(run(folder, words).status, 1) << words.back();
+  }
+}
+
+// Every piece is there once, and the written tree slices to what was told.
+TEST(Tree, WritesADesignWithAllPieces) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 5; cube([size, 4, 8]);");
+  folder.write("orders.csv",
+               "name,design,quantity,size\nAda,a.scad,2,5\nBo,a.scad,1,8\n");
+  const auto result =
+      run(folder, {"tree", "--table", "orders.csv", "--flask", "80,100", "-o",
+                   "tree.scad", "--metal", "sterling-silver"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(has(result.errors, "3 pieces on a trunk")) << result.errors;
+  EXPECT_TRUE(has(result.errors, "g of it pieces"));
+  const std::string text = read_file(folder.file("tree.scad"));
+  EXPECT_TRUE(has(text, "// Ada\nmodule piece_1()"));
+  EXPECT_TRUE(has(text, "// Bo\nmodule piece_2()"));
+  const json report = report_of(folder, {"tree.scad", "--layer", "0.1"});
+  const std::size_t at = result.errors.find(" mm³");
+  const std::size_t begin = result.errors.rfind(' ', at - 1);
+  const double told =
+      std::stod(result.errors.substr(begin + 1, at - begin - 1));
+  EXPECT_NEAR(report["volume_mm3"].get<double>(), told, 0.03 * told);
+  // No piece leaves the flask's walls.
+  EXPECT_LE(report["box_mm"]["high"][0].get<double>(), 30.0);
+  EXPECT_LE(report["box_mm"]["high"][2].get<double>(), 85.0);
+}
+
+TEST(Tree, TakesTheNextFlaskWhereOneIsFull) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([12, 12, 16]);");
+  const std::vector<std::string> words = {"tree", "a.scad",      "--copies",
+                                          "14",   "--flask",     "80,90",
+                                          "-o",   "t{tree}.scad"};
+  const auto result = run(folder, words);
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(exists(folder, "t1.scad"));
+  EXPECT_TRUE(exists(folder, "t2.scad"));
+  auto one = words;
+  one.back() = "t.scad";
+  EXPECT_EQ(run(folder, one).status, 1);
+  EXPECT_FALSE(exists(folder, "t.scad"));
+  folder.write("a.scad", "cube(60);");
+  const auto large = run(folder, words);
+  EXPECT_EQ(large.status, 1);
+  EXPECT_TRUE(has(large.errors, "does not fit a flask")) << large.errors;
+}
+
+}  // namespace
+}  // namespace lamina::cli
