@@ -107,10 +107,10 @@ module ring() {
   difference() {
     intersection() {
       body();
-      oval_block();
+      oval_block($visible = true);
     }
     rotate([-90, 0, 0]) translate([0, 0, face - depth])
-      linear_extrude(depth + 1) engraving();
+      linear_extrude(depth + 1, $visible = true) engraving();
   }
 }
 

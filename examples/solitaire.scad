@@ -67,7 +67,7 @@ module ring() {
       shank();
       on_ring(girdle)
         prong_head(stone, prongs, prong_wire, depth = foot, lean = lean,
-                   turn = 180 / prongs);
+                   turn = 180 / prongs, $visible = true);
     }
     on_ring(girdle)
       seat_cutter(stone, bite = prong_bite(prong_wire), above = stone,

@@ -11,14 +11,14 @@
 #include <fmt/format.h>
 
 #include "base/source.h"
-#include "cli/pieces/collect.h"
 #include "cli/commands/commands.h"
-#include "cli/pieces/ledger.h"
-#include "cli/pieces/piece_table.h"
-#include "cli/pieces/pieces.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"
+#include "cli/pieces/collect.h"
+#include "cli/pieces/ledger.h"
+#include "cli/pieces/piece_table.h"
+#include "cli/pieces/pieces.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
 #include "parser/loader.h"

@@ -14,11 +14,11 @@
 #include "base/similar.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
-#include "cli/pieces/pieces.h"
 #include "cli/commands/watch.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"
+#include "cli/pieces/pieces.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
 #include "compiler/request.h"
@@ -47,7 +47,8 @@ Usage:
   lamina preflight DESIGN --metal METAL   say what a casting house asks
   lamina sprue DESIGN -o NEW.scad         write it with sprues for casting
   lamina tree DESIGN... -o TREE.csg       set pieces on a trunk, for one flask
-  lamina printers, lamina materials       list those that lamina knows
+  lamina printers                         list the printers that lamina knows
+  lamina materials                        list its resins and metals
 
 Output:
   -o FILE             the output, by its extension, or '-' for standard output;
@@ -64,10 +65,8 @@ Output:
                         .slices.3mf      a stack of slices
                         .layers.json     layers as JSON, in full precision
                         .csg .echo .ast .param  tree, echoes, syntax, parameters
-  --printer P         the printer, by name or a part of it ('lamina printers'),
-                      or by profile: fit, printing time, pixels
-  --material M        the resin or wax, likewise ('lamina materials'): exposure,
-                      weight, price
+  --printer P         a name of 'lamina printers', or a profile: fit, time, pixels
+  --material M        likewise the resin or wax: exposure, weight, price
   --metal M           the metal that is cast from it: weight, price
   --price PRICES      of these: 60/l, 55/kg, 62.5/g, '1900 EUR/oz' (troy ounce)
 

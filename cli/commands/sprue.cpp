@@ -34,10 +34,9 @@ The written design is measured, too: what metal that enters by the root would
 still reach only through thinner places is listed.
 
   -o FILE             the design to write
-  --sprue=D[,LENGTH][,disc]
-                      diameter of the root, and how far from the piece it is at
-                      least, in mm; disc adds a plate for the piece to stand on
-                      [1.8 times the thickest place, 5]
+  --sprue             =D for the root's diameter in mm, =D,LENGTH for how far
+                      from the piece it is at least, too; add ,disc for a plate
+                      for the piece to stand on [1.8 times the thickest place, 5]
 
 All options of Design are those of 'lamina --help', and so are --chordal-error
 and --decimate. Slicing takes --sprue, too, and adds the same sprues in the run.

@@ -47,8 +47,7 @@ it like any design. What does not fit one flask goes into the next.
   --gap MM        least distance between pieces, and to the trunk [3]
   --wall MM       least distance from pieces to the flask's wall [10]
   --trunk MM      the trunk's diameter; it is not thinner than what it feeds [8]
-  --sprue=D[,LENGTH]
-                  as of 'lamina sprue'
+  --sprue         sizes of sprues, as of 'lamina sprue': =D,LENGTH
   --metal METAL   says what each tree weighs
   -q, --quiet     print errors only
   -h, --help      print this help

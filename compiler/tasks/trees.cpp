@@ -132,10 +132,11 @@ double tree_volume(const slicer::CastingTree& tree,
     const double out = glm::length(Vec2(root));
     volume += piece.volume;
     if (out <= sizes.trunk / 2) continue;
+    // Half of the root's ball is in the stem, and counted already.
+    const double d = piece.root_diameter;
     const double length =
         (1 - sizes.trunk / 2 / out) * glm::distance(root, placement.stem);
-    volume += std::numbers::pi / 4 * length * piece.root_diameter *
-              piece.root_diameter;
+    volume += std::max(0.0, std::numbers::pi * d * d * (length / 4 - d / 12));
   }
   return volume;
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <queue>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -19,9 +20,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A sprue may end in a ball that is smaller than the thickest of its pool by
-// this share, for the way between is as thick: find_pools() lets pass more.
-constexpr double kLetPass = 0.06;
+// A sprue ends in a ball as large as the thickest of its pool, but for this
+// share: then the way between is as thick, and find_pools() lets pass more.
+constexpr double kFeeding = 0.94;
+// Where none such has a way out that nobody sees, one sprue ends in smaller
+// balls of the thickest pool.
+constexpr std::array kSmaller = {0.8, 0.65, 0.5};
 // So many balls of a pool are tried, in so many directions.
 constexpr std::size_t kMostEnds = 24;
 constexpr std::size_t kDirections = 192;
@@ -85,40 +89,65 @@ class SpruePlanner {
         is_visible_(is_visible) {}
 
   std::optional<SpruePlan> plan() {
-    find_targets();
-    // What cannot be fed along with the rest, the smallest first, is left.
-    while (!targets_.empty()) {
-      const Choice choice = choose();
-      if (choice.cost < kInfinity) return finish(choice);
-      targets_.pop_back();
+    const std::vector<Pool> pools = pools_to_feed();
+    if (auto plan = feed(pools)) return plan;
+    // A smaller place that nobody sees does not feed, but is what goldsmiths
+    // choose then.
+    for (const double share : kSmaller) {
+      if (auto plan = try_pools({pools.data(), 1}, share)) return plan;
     }
-    return std::nullopt;
+    allows_seen_ = true;
+    return feed(pools);
   }
 
  private:
-  void find_targets() {
+  // The thickest first, then by volume.
+  std::vector<Pool> pools_to_feed() const {
     std::vector<Pool> pools = find_pools(samples_, balls_, field_, {});
     // The thickest is the one that is fed without a gate.
     std::ranges::stable_partition(pools,
                                   [](const Pool& pool) { return pool.is_fed; });
     double whole = 0;
     for (const Pool& pool : pools) whole += pool.volume;
+    std::vector<Pool> wanted;
     for (const Pool& pool : pools) {
       const bool counts =
-          targets_.empty() || pool.volume >= kLeastFedShare * whole;
-      if (!counts || targets_.size() == kMostSprues) continue;
-      targets_.push_back({pool, ends_of(pool)});
-      thickest_ = std::max(thickest_, pool.thickness);
+          wanted.empty() || pool.volume >= kLeastFedShare * whole;
+      if (counts && wanted.size() < kMostSprues) wanted.push_back(pool);
     }
-    root_diameter_ =
-        sizes_.root > 0 ? sizes_.root : kRootShare * kGateShare * thickest_;
+    return wanted;
+  }
+
+  // Of pools that cannot be fed together the smallest are left.
+  std::optional<SpruePlan> feed(std::span<const Pool> pools) {
+    for (std::size_t count = pools.size(); count > 0; --count) {
+      if (auto plan = try_pools(pools.first(count), kFeeding)) return plan;
+    }
+    return std::nullopt;
+  }
+
+  // share  of a pool's thickness that the place where a sprue ends has at least
+  std::optional<SpruePlan> try_pools(std::span<const Pool> pools,
+                                     double share) {
+    targets_.clear();
+    double widest = 0;
+    for (const Pool& pool : pools) {
+      targets_.push_back({pool, ends_of(pool, share)});
+      for (const Ball& end : targets_.back().ends) {
+        widest = std::max(widest, 2 * kGateShare * end.radius);
+      }
+    }
+    root_diameter_ = sizes_.root > 0 ? sizes_.root : kRootShare * widest;
+    const Choice choice = choose();
+    if (choice.cost == kInfinity) return std::nullopt;
+    return finish(choice);
   }
 
   // Balls about as large as that of the pool, which one can reach from there
   // without coming through a thinner place.
-  std::vector<Ball> ends_of(const Pool& pool) const {
+  std::vector<Ball> ends_of(const Pool& pool, double share) const {
     const SolidCells& cells = samples_.cells;
-    const double least = (1 - kLetPass) * pool.thickness / 2;
+    const double least = share * pool.thickness / 2;
     std::vector<SolidCells::Index> found;
     std::set<std::uint32_t> seen;
     std::queue<SolidCells::Index> next;
@@ -174,14 +203,16 @@ class SpruePlanner {
         return std::nullopt;
       }
     }
-    return way_at(end.centre + out * along, end.radius);
+    const double ahead = (1 - kGateDepth) * kGateShare * end.radius;
+    Way way = way_at(end.centre + out * along, end.radius);
+    way.gate = end.centre + (out + ahead) * along;
+    return way;
   }
 
   Way way_at(Vec3 gate, double radius) const {
-    Way way{.gate = gate};
+    Way way;
     if (const auto nearest = balls_.nearest(gate, kInfinity)) {
       way.instance = samples_.points[nearest->point].instance;
-      way.gate = samples_.points[nearest->point].place;
     }
     way.is_seen = std::ranges::any_of(
         balls_.points_within(gate, kGateShare * radius),
@@ -199,32 +230,21 @@ class SpruePlanner {
     for (const Ball& end : target.ends) {
       const double length = glm::distance(end.centre, root);
       const double diameter = 2 * kGateShare * end.radius;
-      double own = cone_volume(length, diameter, root_diameter_);
+      const double own = cone_volume(length, diameter, root_diameter_);
       if (own >= least) continue;
       const auto way = way_out(end, root);
-      if (!way) continue;
-      if (way->is_seen) own += seen_cost();
-      if (own >= least) continue;
+      if (!way || (way->is_seen && !allows_seen_)) continue;
       least = own;
-      // As deep in the piece as the ball there, and wider.
-      const Vec3 along = (root - end.centre) / length;
-      best = Sprue{.end = end.centre + (diameter / 2 - end.radius) * along,
-                   .diameter = diameter,
+      best = Sprue{.end = end.centre,
                    .thickness = 2 * end.radius,
                    .gate = way->gate,
+                   .diameter = diameter,
                    .feeds = target.pool.volume,
                    .instance = way->instance,
                    .is_seen = way->is_seen};
     }
     cost += least;
     return best;
-  }
-
-  // More than any sprue that is not seen.
-  double seen_cost() const {
-    const double far =
-        4 * (glm::length(box_.size()) + sizes_.length + root_diameter_);
-    return cone_volume(far, root_diameter_, root_diameter_);
   }
 
   Choice try_root(Vec3 root, Vec3 direction, double best) const {
@@ -262,8 +282,7 @@ class SpruePlanner {
     return best;
   }
 
-  Choice choose() {
-    for (const SurfacePoint& point : samples_.points) box_.add(point.place);
+  Choice choose() const {
     const std::vector<Vec3> all = directions();
     std::vector<Choice> choices(all.size());
     for_each_index(all.size(),
@@ -290,9 +309,8 @@ class SpruePlanner {
   const SprueSizes sizes_;
   const std::function<bool(std::uint32_t)>& is_visible_;
   std::vector<Target> targets_;  // the thickest first, then by volume
-  double thickest_ = 0;          // [mm]
   double root_diameter_ = 0;     // [mm]
-  Box3 box_;
+  bool allows_seen_ = false;
 };
 
 }  // namespace
@@ -300,11 +318,8 @@ class SpruePlanner {
 double SpruePlan::volume() const {
   double volume = 0;
   for (const Sprue& sprue : sprues) {
-    const double whole = glm::distance(sprue.end, root);
-    const double inside = glm::distance(sprue.end, sprue.gate);
-    const double at_gate =
-        glm::mix(sprue.diameter, root_diameter, inside / whole);
-    volume += cone_volume(whole - inside, at_gate, root_diameter);
+    volume += cone_volume(glm::distance(sprue.gate, root), sprue.diameter,
+                          root_diameter);
   }
   return volume;
 }

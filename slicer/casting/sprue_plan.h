@@ -2,9 +2,10 @@
 // Sprues of a casting: rods through which metal flows into a piece.
 //
 // A sprue is a cone. It begins in the **root**, where it will be joined to a
-// tree, and ends inside the piece, in a large ball there, without coming out on
-// the other side. Where one place cannot feed all of the piece
-// (slicer/thickness/feeding.h), there are several sprues with one root.
+// tree, and ends at the surface, in the **gate**. From there it narrows to the
+// largest ball in the piece there, so that it comes out nowhere else. Where one
+// place cannot feed all of the piece (slicer/thickness/feeding.h), there are
+// several sprues with one root.
 //
 // Where a rod meets a plate the ball that fits is larger than in either: of a
 // plate t thick and a rod k t wide it is (1 + k² / 4) t wide. So that the rod
@@ -35,6 +36,8 @@ struct SprueSizes {
   bool operator==(const SprueSizes&) const = default;
 };
 inline constexpr double kGateShare = 1.4;
+// How far the gate's ball is in the piece, at least [radii of it].
+inline constexpr double kGateDepth = 0.3;
 inline constexpr double kRootShare = 1.3;
 // Diameter of the disc [diameters of the root], and its thickness [mm].
 inline constexpr double kDiscShare = 3;
@@ -46,12 +49,12 @@ inline constexpr double kLeastFedShare = 0.05;
 inline constexpr std::size_t kMostSprues = 4;
 
 struct Sprue {
-  Vec3 end = Vec3(0);          // the middle of the ball in which it ends
+  Vec3 end = Vec3(0);          // the middle of the ball in the piece
+  double thickness = 0;        // of the piece there, the ball's diameter [mm]
+  Vec3 gate = Vec3(0);         // the middle of the ball outside
   double diameter = 0;         // of that [mm]
-  double thickness = 0;        // of the piece there [mm]
-  Vec3 gate = Vec3(0);         // where its axis comes out of the piece
   double feeds = 0;            // volume of the pool that it is set for [mm³]
-  std::uint32_t instance = 0;  // of the surface there: csg::Scene::instances
+  std::uint32_t instance = 0;  // of the surface: csg::Scene::instances
   std::string at = {};         // its source line, if known
   bool is_seen = false;        // it comes out of a visible surface
 };

@@ -21,12 +21,16 @@ module lamina_sprues() {
 )";
 
 constexpr const char* kSprueModule = R"(
-  // A cone from the root to the middle of a ball in the piece, which has the
-  // diameter d.
-  module sprue(end, d) {
+  // A cone from the root to the gate, a ball of diameter d at the surface, and
+  // on to the middle of the piece, which is `thickness` thick there.
+  module sprue(gate, d, end, thickness) {
     hull() {
-      translate(end) sphere(d = d, $fn = 24);
       translate(sprue_root) sphere(d = sprue_root_d, $fn = 32);
+      translate(gate) sphere(d = d, $fn = 24);
+    }
+    hull() {
+      translate(gate) sphere(d = d, $fn = 24);
+      translate(end) sphere(d = thickness, $fn = 24);
     }
   }
 )";
@@ -53,8 +57,9 @@ std::string sprue_text(const SpruePlan& plan) {
   if (plan.has_disc) text += kDiscModule;
   text += '\n';
   for (const Sprue& sprue : plan.sprues) {
-    fmt::format_to(out, "  sprue({}, {});  // {:.0f} mm³{}\n",
-                   design_text(sprue.end), design_text(sprue.diameter),
+    fmt::format_to(out, "  sprue({}, {}, {}, {});  // {:.0f} mm³{}\n",
+                   design_text(sprue.gate), design_text(sprue.diameter),
+                   design_text(sprue.end), design_text(sprue.thickness),
                    sprue.feeds, sprue.at.empty() ? "" : ", " + sprue.at);
   }
   if (plan.has_disc) {

@@ -44,7 +44,7 @@ TEST(Sprue, WritesADesignThatIsFed) {
   EXPECT_EQ(result.status, 0);
   EXPECT_TRUE(has(result.errors, "2 sprues")) << result.errors;
   EXPECT_TRUE(has(result.errors, "with them: all is fed from the root"));
-  EXPECT_TRUE(has(result.errors, "a.scad:1:41"));
+  EXPECT_TRUE(has(result.errors, "a.scad:1:40"));
   const std::string text = read_file(folder.file("b.scad"));
   EXPECT_TRUE(text.starts_with("include <a.scad>\n"));
   // The run that adds them itself makes the same bytes.
@@ -73,15 +73,15 @@ TEST(Sprue, IsReportedAndSized) {
   const json& sprues = sprued["sprues"];
   EXPECT_EQ(sprues["root_diameter_mm"], 7);
   EXPECT_EQ(sprues["sprues"].size(), 1U);
-  EXPECT_NEAR(sprues["sprues"][0]["feeds_mm3"].get<double>(), 125, 2);
+  EXPECT_NEAR(sprues["sprues"][0]["feeds_mm3"].get<double>(), 125, 4);
   EXPECT_TRUE(sprues["unfed"].empty());
-  // Piece, rod and disc, of which the root's ball is a part.
+  // Rod and disc, and of the balls at its ends what is in none of them.
   const double disc = M_PI * 21 * 21 / 4 * 1.5;
   const double ball = M_PI * 343 / 6;
   const double added =
       sprued["volume_mm3"].get<double>() - plain["volume_mm3"].get<double>();
   EXPECT_GT(added, disc + sprues["volume_mm3"].get<double>() - 0.1 * ball);
-  EXPECT_LT(added, disc + sprues["volume_mm3"].get<double>() + 0.6 * ball);
+  EXPECT_LT(added, disc + sprues["volume_mm3"].get<double>() + 1.0 * ball);
 }
 
 // Supports hold sprues as well, and scales enlarge them.
@@ -127,11 +127,12 @@ TEST(Sprue, RefusesWhatHasNoWayOutOrNoVolume) {
            {"tree", "a.scad", "-o", "{name}.scad", "--flask", "80,100"},
            {"tree", "-o", "t.scad", "--flask", "80,100"},
        }) {
-    EXPECT_EQ(run(folder, words).status, 1) << words.back();
+    EXPECT_EQ(run(folder, words).status, 2) << words.back();
   }
 }
 
-// Every piece is there once, and the written tree slices to what was told.
+// Every piece is there once, and the written tree slices to what was told,
+// but for where its rods meet.
 TEST(Tree, WritesADesignWithAllPieces) {
   const TemporaryFolder folder;
   folder.write("a.scad", "size = 5; cube([size, 4, 8]);");
@@ -151,7 +152,7 @@ TEST(Tree, WritesADesignWithAllPieces) {
   const std::size_t begin = result.errors.rfind(' ', at - 1);
   const double told =
       std::stod(result.errors.substr(begin + 1, at - begin - 1));
-  EXPECT_NEAR(report["volume_mm3"].get<double>(), told, 0.03 * told);
+  EXPECT_NEAR(report["volume_mm3"].get<double>(), told, 0.06 * told);
   // No piece leaves the flask's walls.
   EXPECT_LE(report["box_mm"]["high"][0].get<double>(), 30.0);
   EXPECT_LE(report["box_mm"]["high"][2].get<double>(), 85.0);
@@ -159,9 +160,9 @@ TEST(Tree, WritesADesignWithAllPieces) {
 
 TEST(Tree, TakesTheNextFlaskWhereOneIsFull) {
   const TemporaryFolder folder;
-  folder.write("a.scad", "cube([12, 12, 16]);");
+  folder.write("a.scad", "cube([8, 6, 12]);");
   const std::vector<std::string> words = {"tree", "a.scad",      "--copies",
-                                          "14",   "--flask",     "80,90",
+                                          "30",   "--flask",     "80,90",
                                           "-o",   "t{tree}.scad"};
   const auto result = run(folder, words);
   ASSERT_EQ(result.status, 0) << result.errors;
@@ -169,7 +170,7 @@ TEST(Tree, TakesTheNextFlaskWhereOneIsFull) {
   EXPECT_TRUE(exists(folder, "t2.scad"));
   auto one = words;
   one.back() = "t.scad";
-  EXPECT_EQ(run(folder, one).status, 1);
+  EXPECT_EQ(run(folder, one).status, 2);
   EXPECT_FALSE(exists(folder, "t.scad"));
   folder.write("a.scad", "cube(60);");
   const auto large = run(folder, words);

@@ -63,10 +63,10 @@ TEST(PlanSprues, SetsOneOnABall) {
   const Sprue& sprue = planned.plan->sprues[0];
   EXPECT_NEAR(sprue.thickness, 8, 0.1);
   EXPECT_NEAR(sprue.diameter, kGateShare * sprue.thickness, 1e-9);
-  EXPECT_NEAR(glm::length(sprue.gate), 4, 0.3);
-  // As deep as the ball: it does not come out on the other side.
-  EXPECT_NEAR(glm::dot(sprue.end, planned.plan->direction) - sprue.diameter / 2,
-              -4, 0.15);
+  EXPECT_LT(glm::length(sprue.end), 0.3);
+  // The gate's ball reaches into the piece by its share, and no farther.
+  EXPECT_NEAR(glm::length(sprue.gate) - sprue.diameter / 2,
+              4 - kGateDepth * sprue.diameter / 2, 0.3);
   EXPECT_NEAR(glm::length(planned.plan->root), 4 + SprueSizes().length, 0.1);
   EXPECT_TRUE(unfed_with(planned).empty());
 }
