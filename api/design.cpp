@@ -105,7 +105,6 @@ slicer::Settings to_settings(const SliceOptions& options) {
   settings.greatest_thickness = options.max_layer;
   settings.heights = options.heights;
   settings.tolerance = options.tolerance;
-  settings.compensation = options.compensation;
   settings.threads = options.threads;
   return settings;
 }
@@ -267,6 +266,7 @@ struct Design::State {
   compiler::Request with_job(const SliceOptions& options) const {
     compiler::Request asked = request;
     asked.job = to_settings(options);
+    asked.compensation.contour = options.compensation;
     require_valid(asked);
     return asked;
   }

@@ -46,6 +46,8 @@ struct Report {
   // The supports that were added, if any were asked for.
   std::optional<slicer::SupportPlan> supports;
   std::optional<slicer::HollowReport> hollow;  // if it was asked for
+  std::optional<slicer::BleedReport> bleed;    // likewise
+  slicer::Compensation compensation;           // that was applied
   slicer::PrintEstimate estimate;
   std::uint64_t snapped_layers = 0;  // slicer::LayerWriter
   std::uint64_t warnings = 0;

@@ -215,8 +215,8 @@ bool compile(Compilation& c) {
                                          c.temporary_files, c.diagnostics);
 
   // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
-  // leaves. The scene is turned, hollowed and placed here, while it is still
-  // one thing.
+  // leaves. The scene is turned, hollowed, placed and compensated for bleeding
+  // light here, while it is still one thing.
   const csg::Lowered lowered = lower_tree(c);
 
   if (ends_strictly(c)) return false;
@@ -286,6 +286,11 @@ csg::Lowered lower_tree(Compilation& c) {
     });
   }
   place_on_bed(lowered, c.request.geometry);
+  c.report.compensation = compensation_of(c.request, c.report.machine);
+  c.report.bleed = timed(c.report.lower_seconds, [&] {
+    return mend_bleed(lowered, settings_of(c.request, c.report.machine),
+                      c.report.compensation, c.diagnostics);
+  });
   c.emptiness = csg::why_empty(c.tree);
   c.tree.drop_nodes();
   explained(c, [&] { judge(lowered, c.request, c.diagnostics); });

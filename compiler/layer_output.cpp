@@ -2,14 +2,16 @@
 
 #include <utility>
 
+#include "compiler/passes.h"
 #include "compiler/warnings.h"
 
 namespace lamina::compiler {
 namespace {
 
 // What the request promises of the contours.
-std::optional<slicer::Deviation> promised_deviation(const Request& request) {
-  auto deviation = slicer::promised_deviation(request.job);
+std::optional<slicer::Deviation> promised_deviation(const Request& request,
+                                                    const Machine& machine) {
+  auto deviation = slicer::promised_deviation(settings_of(request, machine));
   if (deviation && request.geometry.chordal_error > 0) {
     deviation->facets = request.geometry.chordal_error;
   }
@@ -36,7 +38,7 @@ LayerOutput LayerOutput::open(const Request& request, const Machine& machine,
     diagnostics.own_remark(
         {}, "programs that know no slices open this 3MF as a box");
   }
-  const auto deviation = promised_deviation(request);
+  const auto deviation = promised_deviation(request, machine);
   slicer::WriterOptions options;
   options.format = request.output.format;
   if (request.output.cli_encoding) options.cli = *request.output.cli_encoding;

@@ -372,6 +372,7 @@ class Search {
 std::optional<OrientResult> find_orientations(Compilation& c,
                                               const OrientOptions& options) {
   c.request.geometry.turn = 0;
+  c.request.compensation.drop_bed();
   c.report.machine = choose_machine(c.request.output, c.file_access());
   const auto lowered = make_geometry(c);
   if (!lowered) return std::nullopt;

@@ -320,6 +320,38 @@ void place_on_bed(csg::Lowered& lowered, const GeometryRequest& request) {
   }
 }
 
+slicer::Compensation compensation_of(const Request& request,
+                                     const Machine& machine) {
+  slicer::Compensation compensation;
+  if (machine.material) compensation = machine.material->compensation;
+  const CompensationRequest& asked = request.compensation;
+  if (asked.contour) compensation.contour = *asked.contour;
+  if (asked.foot) compensation.foot = *asked.foot;
+  if (asked.bleed) compensation.bleed = *asked.bleed;
+  return compensation;
+}
+
+std::optional<slicer::BleedReport> mend_bleed(
+    csg::Lowered& lowered, const slicer::Settings& settings,
+    slicer::Compensation& compensation, Diagnostics& diagnostics) {
+  auto* scene = std::get_if<csg::Scene>(&lowered.geometry);
+  if (scene != nullptr) {
+    if (compensation.bleed == 0) return std::nullopt;
+    return slicer::compensate_bleed(*scene, compensation.bleed, settings,
+                                    diagnostics);
+  }
+  if (lowered.outline() != nullptr &&
+      (compensation.bleed > 0 || compensation.foot.inset > 0)) {
+    diagnostics.own_warning(
+        {},
+        "foot and bleed of the compensation need a solid; the design is "
+        "flat");
+  }
+  compensation.foot = {};
+  compensation.bleed = 0;
+  return std::nullopt;
+}
+
 void judge(const csg::Lowered& lowered, const Request& request,
            Diagnostics& diagnostics) {
   if (lowered.is_empty()) throw slicer::EmptyDesign();
@@ -342,8 +374,16 @@ slicer::Settings settings_of(const Request& request, const Machine& machine) {
     settings.print.least_volume =
         settings.print.least_area * settings.layer_thickness;
   }
+  const slicer::Compensation compensation = compensation_of(request, machine);
+  settings.compensation = compensation.contour;
+  settings.foot = compensation.foot;
+  // Each layer of the foot has a row of its own in the tables of formats.
   settings.most_thickness_runs =
       slicer::most_thickness_runs(request.output.format);
+  if (settings.foot.inset != 0) {
+    settings.most_thickness_runs -= std::min<std::size_t>(
+        settings.foot.layers, settings.most_thickness_runs - 1);
+  }
   return settings;
 }
 

@@ -19,6 +19,7 @@
 #include "ldni/section/grid.h"
 #include "parser/ast.h"
 #include "parser/loader.h"
+#include "slicer/bleed/bleed.h"
 #include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
@@ -81,14 +82,27 @@ std::optional<slicer::HollowReport> hollow(csg::Lowered& lowered,
 // Shifts a solid onto the bed, if that is asked for.
 void place_on_bed(csg::Lowered& lowered, const GeometryRequest& request);
 
+// How the print is compensated: as asked for, and else as the material's
+// profile says.
+slicer::Compensation compensation_of(const Request& request,
+                                     const Machine& machine);
+
+// Moves faces of a solid that look down, if that is asked for. It must stand
+// where it will be printed.
+//
+// compensation  of an outline loses what needs a solid, with a warning
+std::optional<slicer::BleedReport> mend_bleed(
+    csg::Lowered& lowered, const slicer::Settings& settings,
+    slicer::Compensation& compensation, Diagnostics& diagnostics);
+
 // Throws GeometryError where that is nothing, or an outline that the format of
 // the output cannot hold; warns of what is probably not meant.
 void judge(const csg::Lowered& lowered, const Request& request,
            Diagnostics& diagnostics);
 
-// The settings of the request, with the limits of its format and of the
-// printer: what is smaller than its pixel is too small to matter. Supports hold
-// what is near.
+// The settings of the request, with its compensation and the limits of its
+// format and of the printer: what is smaller than its pixel is too small to
+// matter. Supports hold what is near.
 slicer::Settings settings_of(const Request& request, const Machine& machine);
 
 // Where the layers are; of an outline there is none. Throws GeometryError where

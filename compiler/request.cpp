@@ -22,11 +22,15 @@ std::string import_statement(const std::string& path, const std::string& part) {
 
 }  // namespace
 
-GeometryRequest as_drawn(const GeometryRequest& geometry) {
-  GeometryRequest drawn;
-  drawn.chordal_error = geometry.chordal_error;
-  drawn.decimation = geometry.decimation;
-  return drawn;
+Request as_drawn(Request request) {
+  GeometryRequest geometry;
+  geometry.chordal_error = request.geometry.chordal_error;
+  geometry.decimation = request.geometry.decimation;
+  request.geometry = geometry;
+  request.hollow.reset();
+  request.supports.reset();
+  request.compensation = {0, slicer::Foot(), 0};
+  return request;
 }
 
 bool is_imported(const std::string& path) {

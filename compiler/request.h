@@ -69,8 +69,19 @@ struct GeometryRequest {
   double decimation = 0;     // of imported meshes [mm]; 0: none
 };
 
-// The same facets, but neither turned nor moved nor scaled.
-GeometryRequest as_drawn(const GeometryRequest& geometry);
+// What is asked of the compensation; what is not given is the material's, or 0.
+struct CompensationRequest {
+  std::optional<double> contour;  // as of slicer::Compensation
+  std::optional<slicer::Foot> foot;
+  std::optional<double> bleed;
+
+  // Leaves out what depends on how a part stands on the bed, for passes that
+  // look at it before it stands there.
+  void drop_bed() {
+    foot.emplace();
+    bleed = 0;
+  }
+};
 
 // Lines of the design, "12" or "lib.scad:12", that decide where supports are.
 struct SupportLines {
@@ -107,16 +118,21 @@ struct Request {
   GeometryRequest geometry;
   // Lengths as the print has them, places as the design has them.
   std::optional<slicer::HollowSizes> hollow;
-  slicer::Settings job;  // how the solid is sliced
+  slicer::Settings job;  // how the solid is sliced, but for compensation
+  CompensationRequest compensation;
   // Sprues are added to the design.
   std::optional<slicer::SprueSizes> sprues;
-  // Supports are added to the design, and to its sprues. A tip of 0 is that of the material, or
-  // the usual one.
+  // Supports are added to the design and to its sprues. A tip of 0 is that of
+  // the material, or the usual one.
   std::optional<slicer::SupportSizes> supports;
   SupportLines support_lines;
   std::string raft_label;  // a text in the raft of the supports; empty: none
   OutputRequest output;
 };
+
+// The same design as it is drawn: neither turned nor moved, scaled, hollowed,
+// supported or compensated.
+Request as_drawn(Request request);
 
 // Meshes and drawings can stand in the place of a design: `lamina ring.stl`
 // slices what `import("ring.stl");` makes. By its name: what import() reads and

@@ -14,11 +14,8 @@ namespace {
 
 // The design alone, where it stands by itself.
 Request without_sprues(const Request& request) {
-  Request piece = request;
+  Request piece = as_drawn(request);
   piece.sprues.reset();
-  piece.supports.reset();
-  piece.hollow.reset();
-  piece.geometry = as_drawn(request.geometry);
   return piece;
 }
 

@@ -43,6 +43,7 @@ Request without_supports(const Request& request) {
   part.job.written = {};
   part.job.min_feature = 0;
   part.job.finds_makers = false;
+  part.compensation.drop_bed();
   return part;
 }
 
@@ -222,6 +223,7 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
                                                  TemporaryFiles& files,
                                                  Diagnostics& diagnostics) {
   const Request part = without_supports(request);
+  const Machine machine = choose_machine(request.output, files.file_access());
   Compilation compilation(part, files);
   compilation.evaluation_stack = evaluation_stack;
   std::optional<csg::Lowered> lowered;
@@ -229,7 +231,7 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
   try {
     lowered = make_geometry(compilation);
     if (!lowered || lowered->scene() == nullptr) return std::nullopt;
-    layers = slicer::all_layers(*lowered->scene(), part.job);
+    layers = slicer::all_layers(*lowered->scene(), settings_of(part, machine));
   } catch (const InternalError&) {
     throw;
   } catch (const Error&) {
@@ -241,11 +243,9 @@ std::optional<slicer::SupportPlan> plan_supports(const Request& request,
         "The design has supports already; add them to the design without");
   }
   warn_of_marks(scene, lines_of(request), diagnostics);
-  slicer::SupportPlan plan = slicer::plan_supports(
-      layers,
-      support_sizes(*request.supports,
-                    choose_machine(request.output, files.file_access())),
-      marked_solids(scene, layers, request));
+  slicer::SupportPlan plan =
+      slicer::plan_supports(layers, support_sizes(*request.supports, machine),
+                            marked_solids(scene, layers, request));
   name_lines(scene, layers, plan);
   add_label(request, compilation.readers.typesetter, plan, diagnostics);
   warn_of_unheld(plan, diagnostics);

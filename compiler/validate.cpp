@@ -24,14 +24,15 @@ constexpr double kLeastChordalError = 1e-6;
 constexpr double kLeastScale = 0.001;
 constexpr double kGreatestScale = 1000;
 
-// No beam is wider, and no resin bleeds farther [mm].
-constexpr double kGreatestCompensation = 100;
-
 constexpr std::string_view kMoreThanZero = "must be more than 0 mm, not {0}";
 constexpr std::string_view kAtLeastAMillionth = "must be at least 0.000001 mm";
 constexpr std::string_view kFromTo = "must be from {1} to {2}, not {0}";
 
-constexpr std::array<NumberLimits, 20> kNumbers = {{
+slicer::Foot foot_of(const Request& request) {
+  return request.compensation.foot.value_or(slicer::Foot());
+}
+
+constexpr std::array<NumberLimits, 23> kNumbers = {{
     {"--layer", kAboveZero, kUnlimited, kMoreThanZero,
      [](const Request& r) { return r.job.layer_thickness; }},
     {"--adaptive", kAboveZero, kUnlimited, kMoreThanZero,
@@ -42,9 +43,18 @@ constexpr std::array<NumberLimits, 20> kNumbers = {{
      [](const Request& r) { return r.job.ray_pitch; }, true},
     {"--tolerance", 0, kUnlimited, "must not be negative",
      [](const Request& r) { return r.job.tolerance; }},
-    {"--compensate", -kGreatestCompensation, kGreatestCompensation,
+    {"--compensate", -slicer::kGreatestCompensation,
+     slicer::kGreatestCompensation, "must be from {1} to {2} mm, not {0}",
+     [](const Request& r) { return r.compensation.contour.value_or(0); }},
+    {"--compensate foot", 0, slicer::kGreatestFoot,
      "must be from {1} to {2} mm, not {0}",
-     [](const Request& r) { return r.job.compensation; }},
+     [](const Request& r) { return foot_of(r).inset; }},
+    {"--compensate foot", 1, slicer::kMostFootLayers,
+     "must fade over {1} to {2} layers, not {0}",
+     [](const Request& r) { return static_cast<double>(foot_of(r).layers); }},
+    {"--compensate bleed", 0, slicer::kGreatestBleed,
+     "must be from {1} to {2} mm, not {0}",
+     [](const Request& r) { return r.compensation.bleed.value_or(0); }},
     {"--min-feature", slicer::kLeastThinWidth, slicer::kGreatestThinWidth,
      "must be {1} to {2} mm, not {0}",
      [](const Request& r) { return r.job.min_feature; }, true},

@@ -88,7 +88,8 @@ Slicing (lengths in millimetres):
   --hollow MM         hollow the part, with walls of MM and drains (--help-all)
   --sprue             add sprues for casting, as 'lamina sprue' does
   --scale FACTOR      enlarge the print where casting shrinks: 1.02, or X,Y,Z [1]
-  --compensate MM     move contours into the solid by half the beam's width [0]
+  --compensate MM     move contours inwards; foot=MMxLAYERS: first layers more;
+                      bleed=MM: undersides up; 0.03,foot=0.1x3,bleed=0.05 [0]
 
 Checks:
   --min-feature MM    report walls and gaps thinner than this

@@ -67,7 +67,7 @@ class SprueCommand : public Command {
               "supports come last: lamina supports SPRUED.scad");
     compiler::validate(request_);
     // The written design has the piece as it is drawn.
-    request_.geometry = compiler::as_drawn(request_.geometry);
+    request_ = compiler::as_drawn(request_);
   }
 
   int run(const Context& context) override {

@@ -98,7 +98,7 @@ class TreeCommand : public Command {
               "mm, the ends {:g} mm",
               sizes_.flask_diameter, sizes_.flask_height, sizes_.wall,
               sizes_.top + sizes_.foot);
-    request_.geometry = compiler::as_drawn(request_.geometry);
+    request_ = compiler::as_drawn(request_);
     request_.design.path = from_.designs.empty() ? "" : from_.designs.front();
     request_.output.format = slicer::OutputFormat::kCsg;
     request_.output.path = output_;

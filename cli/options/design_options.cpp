@@ -131,6 +131,52 @@ void take_direction(const std::string& text,
   geometry.up = Vec3(numbers[0], numbers[1], numbers[2]);
 }
 
+// text  "0.1", "0.1x4"
+slicer::Foot foot_of(const std::string& text) {
+  const std::size_t by = std::min(text.find('x'), text.size());
+  slicer::Foot foot;
+  foot.inset = require_within("--compensate foot", text.substr(0, by));
+  if (by == text.size()) return foot;
+  const auto layers = whole_number(text.substr(by + 1));
+  require(layers && *layers >= 1 && *layers <= slicer::kMostFootLayers,
+          "--compensate foot",
+          "expected MM or MMxLAYERS, over 1 to {} layers, not '{}'",
+          slicer::kMostFootLayers, text);
+  foot.layers = static_cast<std::uint32_t>(*layers);
+  return foot;
+}
+
+// text  "0.03", "0.03,foot=0.1x4,bleed=0.05"; "0": nothing at all, whatever
+//       the material's profile says
+compiler::CompensationRequest compensation_of(const std::string& text) {
+  constexpr std::string_view kFoot = "foot=";
+  constexpr std::string_view kBleed = "bleed=";
+  compiler::CompensationRequest compensation;
+  const std::vector<std::string> words = words_of(text);
+  require(!words.empty(), "--compensate",
+          "expected MM, foot=MM, foot=MMxLAYERS or bleed=MM");
+  const auto once = [&](bool is_first) {
+    require(is_first, "--compensate", "'{}' says something twice", text);
+  };
+  for (const std::string& word : words) {
+    if (word.starts_with(kFoot)) {
+      once(!compensation.foot);
+      compensation.foot = foot_of(word.substr(kFoot.size()));
+    } else if (word.starts_with(kBleed)) {
+      once(!compensation.bleed);
+      compensation.bleed =
+          require_within("--compensate bleed", word.substr(kBleed.size()));
+    } else {
+      once(!compensation.contour);
+      compensation.contour = require_within("--compensate", word);
+    }
+  }
+  if (words.size() == 1 && compensation.contour == 0.0) {
+    compensation.drop_bed();
+  }
+  return compensation;
+}
+
 slicer::HollowSizes& hollow_of(compiler::Request& request) {
   if (!request.hollow) request.hollow.emplace();
   return *request.hollow;
@@ -272,7 +318,9 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.number("--chordal-error", "length", request.geometry.chordal_error);
   options.number("--decimate", "length", request.geometry.decimation);
   options.number("--tolerance", "length", settings.tolerance);
-  options.number("--compensate", "length", settings.compensation);
+  options.text("--compensate", "lengths", [&request](const std::string& text) {
+    request.compensation = compensation_of(text);
+  });
   options.text("--scale", "factor", [&](const std::string& text) {
     request.geometry.scale = scale_in(text);
   });

@@ -53,7 +53,8 @@ std::string row_of(const Outcome& outcome) {
 constexpr std::string_view kCsvHeader =
     "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,price,"
     "metal_grams,metal_price,print_seconds,seconds,warnings,findings,error,"
-    "supports_mm3,contacts,contact_mm2,orient\r\n";
+    "supports_mm3,contacts,contact_mm2,orient,contour_mm,foot_mm,foot_layers,"
+    "bleed_mm\r\n";
 
 // Empty where it is not known.
 std::string figure(double value) {
@@ -77,6 +78,15 @@ std::string supports_of(const Outcome& outcome) {
              : ",,";
 }
 
+// What was applied: of contours, the foot and its layers, of bleeding light.
+std::string compensation_of(const Outcome& outcome) {
+  if (!outcome.is_done()) return ",,,";
+  const slicer::Compensation& done = outcome.report.compensation;
+  const bool has_foot = done.foot.inset != 0;
+  return fmt::format("{},{},{},{}", done.contour, done.foot.inset,
+                     has_foot ? done.foot.layers : 0, done.bleed);
+}
+
 std::string csv_of(const Piece& piece, const Outcome& outcome) {
   const std::string line = piece.line > 0 ? fmt::format("{}", piece.line) : "";
   std::string figures = ",,,,,,,,,,,,";
@@ -95,10 +105,10 @@ std::string csv_of(const Piece& piece, const Outcome& outcome) {
         csv_words(report.slice.print ? finding_counts(*report.slice.print)
                                      : ""));
   }
-  return fmt::format("{},{},{},{},{},{},{}\r\n", line, csv_words(piece.name),
+  return fmt::format("{},{},{},{},{},{},{},{}\r\n", line, csv_words(piece.name),
                      csv_words(piece.request.output.path), figures,
                      csv_words(outcome.error), supports_of(outcome),
-                     direction_of(outcome));
+                     direction_of(outcome), compensation_of(outcome));
 }
 
 std::string json_of(const Piece& piece, const Outcome& outcome) {

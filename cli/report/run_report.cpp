@@ -208,6 +208,30 @@ Json sprues_json(const slicer::SpruePlan& plan) {
           {"unfed", std::move(unfed)}};
 }
 
+Json losses_json(const slicer::BleedLosses& losses) {
+  Json json = {{"layers", losses.layers}};
+  if (losses.layers > 0) {
+    json["greatest_mm2"] = number(losses.area);
+    json["at"] = {losses.place.x, losses.place.y, losses.place.z};
+  }
+  return json;
+}
+
+// What was applied, and what light that bleeds loses all the same.
+Json compensation_json(const compiler::Report& report) {
+  const slicer::Compensation& done = report.compensation;
+  const bool has_foot = done.foot.inset != 0;
+  Json json = {{"contour_mm", number(done.contour)},
+               {"foot_mm", number(done.foot.inset)},
+               {"foot_layers", has_foot ? done.foot.layers : 0},
+               {"bleed_mm", number(done.bleed)}};
+  if (report.bleed) {
+    json["low_walls"] = losses_json(report.bleed->walls);
+    json["low_gaps"] = losses_json(report.bleed->gaps);
+  }
+  return json;
+}
+
 // whole  what the whole program took; empty for one compilation among several
 Json report_with(const compiler::Compilation& compilation, const Json& whole) {
   const compiler::Report& report = compilation.report;
@@ -229,6 +253,9 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
   }
   if (report.hollow) json["hollow"] = hollow_json(*report.hollow);
   if (report.sprues) json["sprues"] = sprues_json(*report.sprues);
+  if (report.compensation.is_any()) {
+    json["compensation"] = compensation_json(report);
+  }
   if (const auto& measures = report.slice.supports) {
     json["supports"] = supports_json(*measures, report.lines.contacts);
   }
@@ -309,6 +336,23 @@ std::string hollow_line(const compiler::Report& report) {
   return line;
 }
 
+// "compensated: contours 0.03 mm, foot 0.1 mm over 4 layers, bleed 0.05 mm"
+std::string compensation_line(const compiler::Report& report) {
+  const slicer::Compensation& done = report.compensation;
+  if (!done.is_any()) return {};
+  std::string words;
+  const auto add = [&words](const std::string& word) {
+    words += (words.empty() ? "" : ", ") + word;
+  };
+  if (done.contour != 0) add(fmt::format("contours {:g} mm", done.contour));
+  if (done.foot.inset != 0) {
+    add(fmt::format("foot {:g} mm over {}", done.foot.inset,
+                    counted(done.foot.layers, "layer")));
+  }
+  if (done.bleed != 0) add(fmt::format("bleed {:g} mm", done.bleed));
+  return "\ncompensated: " + words;
+}
+
 // "\n" and the line of a search for a direction, if there was one.
 std::string oriented_line(const compiler::Report& report) {
   return report.direction ? "\n" + direction_line(report) : "";
@@ -328,7 +372,7 @@ std::string summary_line(const compiler::Compilation& compilation,
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
-      "{}: {}, {}, {}, {}{}{}{}{}{}{}{}{}\n"
+      "{}: {}, {}, {}, {}{}{}{}{}{}{}{}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, graph {:.3f}, output {:.3f}), {} of "
       "memory, {:.3f} s by the clock",
@@ -339,11 +383,12 @@ std::string summary_line(const compiler::Compilation& compilation,
       slice.box.is_empty() ? "" : ", " + size_text(slice.box.size()),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
       machine_line(report), oriented_line(report), hollow_line(report),
-      sprues_line(report), supports_line(report), print_line(report, check),
-      process_seconds() - earlier_seconds, report.load_seconds,
-      report.evaluate_seconds, report.lower_seconds, section_seconds(report),
-      slice.sweep_seconds, slice.graph_seconds, slice.output_seconds,
-      memory_text(peak_memory_bytes()), report.wall_seconds);
+      compensation_line(report), sprues_line(report), supports_line(report),
+      print_line(report, check), process_seconds() - earlier_seconds,
+      report.load_seconds, report.evaluate_seconds, report.lower_seconds,
+      section_seconds(report), slice.sweep_seconds, slice.graph_seconds,
+      slice.output_seconds, memory_text(peak_memory_bytes()),
+      report.wall_seconds);
 }
 
 }  // namespace

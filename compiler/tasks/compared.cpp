@@ -88,7 +88,7 @@ class ComparedDesign : public Compared {
   const std::string& name() const override { return name_; }
 
   const std::vector<Layer>& layers() override {
-    if (!layers_) layers_ = sliced(compilation_.request.job);
+    if (!layers_) layers_ = sliced(settings());
     return *layers_;
   }
 
@@ -96,21 +96,27 @@ class ComparedDesign : public Compared {
 
   std::vector<Layer> cut(const std::vector<double>& heights) override {
     if (heights.empty()) return {};
-    slicer::Settings settings = compilation_.request.job;
-    settings.heights = heights;
-    return sliced(settings);
+    slicer::Settings at_heights = settings();
+    at_heights.heights = heights;
+    return sliced(at_heights);
   }
 
   SideText text() const override {
-    const slicer::Settings& job = compilation_.request.job;
+    const slicer::Settings job = settings();
     slicer::Deviation deviation;
     deviation.simplification = job.tolerance;
-    if (job.compensation != 0) deviation.compensation = slicer::kArcTolerance;
+    if (slicer::moves_contours(job)) {
+      deviation.compensation = slicer::kArcTolerance;
+    }
     deviation.rounding = rounding_(greatest_coordinate_);
     return {name_, description_, deviation.from_section()};
   }
 
  private:
+  slicer::Settings settings() const {
+    return settings_of(compilation_.request, compilation_.report.machine);
+  }
+
   std::vector<Layer> sliced(const slicer::Settings& settings) {
     slicer::LayerList list;
     try {

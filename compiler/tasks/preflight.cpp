@@ -210,6 +210,7 @@ double american_ring_size(double diameter) {
 std::optional<Preflight> preflight(Compilation& c,
                                    const PreflightOptions& options) {
   c.report.machine = choose_machine(c.request.output, c.file_access());
+  c.request.compensation = {0, slicer::Foot(), 0};
   Preflight found;
   found.metal = metal_of(c.report.machine);
   found.metals = {found.metal};

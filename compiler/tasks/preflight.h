@@ -3,7 +3,8 @@
 //
 // Is any wall, wire or gap thinner than the metal allows; what does the piece
 // weigh; does metal reach its heavy places; how large is it, and the finger
-// that it fits. All of it is measured of the solid that would be printed.
+// that it fits. All of it is measured of the solid that would come out
+// of the printer: what is compensated comes out as drawn.
 
 #include <cstddef>
 #include <optional>

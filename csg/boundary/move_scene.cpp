@@ -49,4 +49,29 @@ void turn_scene(Scene& scene, const Affine& rotation) {
   scene.box = bounds_of(scene);
 }
 
+std::uint32_t add_operand(const Scene& part, const Affine& motion,
+                          std::uint32_t parent, std::uint32_t leaves,
+                          Scene& scene) {
+  const auto first = static_cast<std::uint32_t>(scene.program.size());
+  for (plane::BooleanNode node : part.program) {
+    node.parent += first;
+    scene.program.push_back(node);
+  }
+  scene.program[first].parent = parent;
+  scene.program[first].is_minuend = false;
+  ++scene.program[parent].child_count;
+  for (Instance instance : part.instances) {
+    instance.leaf += leaves;
+    instance.parent += first;
+    if (motion != Affine(1.0)) {
+      Affine& matrix = instance.world_from_leaf;
+      matrix = motion * Mat4(matrix);
+      instance.box =
+          bound_leaf(scene.leaves[instance.leaf], matrix).shifted(matrix[3]);
+    }
+    scene.instances.push_back(instance);
+  }
+  return first;
+}
+
 }  // namespace lamina::csg

@@ -1,5 +1,7 @@
 #pragma once
-// A scene in another place, and what turns are made of.
+// A scene in another place or in another scene, and what turns are made of.
+
+#include <cstdint>
 
 #include "csg/scene.h"
 
@@ -19,5 +21,15 @@ void move_scene(Scene& scene, const Affine& turn, Vec3 shift);
 
 // Turns the scene about the origin by any rotation; boxes are found anew.
 void turn_scene(Scene& scene, const Affine& rotation);
+
+// Adds the program of a scene, moved, as an operand of an operator of another
+// one. Boxes of the other one stay. Returns the operand's root in that program,
+// which is not a minuend.
+//
+// parent  the operator
+// leaves  where the leaves of `part` begin among those of `scene`
+std::uint32_t add_operand(const Scene& part, const Affine& motion,
+                          std::uint32_t parent, std::uint32_t leaves,
+                          Scene& scene);
 
 }  // namespace lamina::csg

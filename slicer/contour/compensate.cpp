@@ -129,6 +129,10 @@ Losses find_losses(const Region& before, const Region& after, int sign) {
 
 }  // namespace
 
+double Foot::of(std::uint32_t index) const {
+  return index < layers ? inset * (layers - index) / layers : 0;
+}
+
 CompensationCounts& CompensationCounts::operator+=(
     const CompensationCounts& other) {
   vanished_regions += other.vanished_regions;

@@ -7,12 +7,46 @@
 // of the solid stay sharp. Moved outwards it is the reverse.
 //
 // Walls thinner than 2 r have no such path: they vanish and are counted.
+//
+// The first layers of a print are cured longest and grow farther: a foot, which
+// an inset of their own mends. Light that shines through a layer cures what is
+// below it; faces that look down must rise for that, which is a change of the
+// scene (slicer/bleed/bleed.h).
 
 #include <cstdint>
 
 #include "plane/contours.h"
 
 namespace lamina::slicer {
+
+// Greatest lengths that make sense [mm]: no beam is wider, and no resin bleeds
+// farther.
+inline constexpr double kGreatestCompensation = 100;
+inline constexpr double kGreatestFoot = 10;
+inline constexpr double kGreatestBleed = 10;
+inline constexpr std::uint32_t kMostFootLayers = 100;
+
+// How much farther than others the first layers are moved inwards.
+struct Foot {
+  double inset = 0;  // of the first layer [mm]
+  // It fades in even steps; behind so many layers nothing is left of it. Unless
+  // given: as many as have an exposure of their own.
+  std::uint32_t layers = 3;
+
+  // Of layer `index` of the print, from 0 [mm].
+  double of(std::uint32_t index) const;
+  bool operator==(const Foot&) const = default;
+};
+
+// All that is done to a design so that its print has the design's sizes.
+struct Compensation {
+  double contour = 0;  // contours move inwards by this [mm]; negative: outwards
+  Foot foot;
+  double bleed = 0;  // faces that look down rise by this [mm]
+
+  bool is_any() const { return contour != 0 || foot.inset != 0 || bleed != 0; }
+  bool operator==(const Compensation&) const = default;
+};
 
 // What compensation lost, in one layer or in several.
 struct CompensationCounts {

@@ -20,7 +20,8 @@ struct Layer {
   double section_z = 0;  // height of the section [mm]
   double bottom = 0;     // the layer's lower side [mm]
   double top = 0;        // its upper side; = bottom = section_z for --heights
-  double compensation = 0;  // contours have been moved inwards by this [mm]
+  // Contours have been moved inwards by this [mm], by their foot, too.
+  double compensation = 0;
   // Every vertex is known to keep this far from foreign edges, in x or in y
   // [mm]; 0: nothing is known.
   double clearance = 0;

@@ -126,33 +126,6 @@ csg::Leaf fill_of(const Cavity& cavity, const std::vector<Layer>& layers) {
                   layers.front().top - layers.front().bottom);
 }
 
-// Adds the program of a part, moved, as the first operand of an operator.
-//
-// leaves  where the part's leaves begin among those of the scene
-void add_minuend(const csg::Scene& part, std::uint32_t parent,
-                 std::uint32_t leaves, const Affine& motion,
-                 csg::Scene& scene) {
-  const auto first = static_cast<std::uint32_t>(scene.program.size());
-  for (std::uint32_t n = 0; n < part.program.size(); ++n) {
-    plane::BooleanNode node = part.program[n];
-    node.parent = n == 0 ? parent : first + node.parent;
-    node.is_minuend = node.is_minuend || n == 0;
-    scene.program.push_back(node);
-  }
-  ++scene.program[parent].child_count;
-  for (csg::Instance instance : part.instances) {
-    instance.leaf += leaves;
-    instance.parent += first;
-    if (motion != Affine(1.0)) {
-      Affine& matrix = instance.world_from_leaf;
-      matrix = motion * Mat4(matrix);
-      instance.box = csg::bound_leaf(scene.leaves[instance.leaf], matrix)
-                         .shifted(matrix[3]);
-    }
-    scene.instances.push_back(instance);
-  }
-}
-
 // Builds the program of a hollow part, (hollow − drains) ∪ plugs, where hollow
 // is part ∩ (shell ∪ fills) or part − cavities.
 class HollowScene {
@@ -269,7 +242,9 @@ class HollowScene {
       leaves_ = static_cast<std::uint32_t>(scene_.leaves.size());
       for (const csg::Leaf& leaf : part_.leaves) add_leaf(leaf);
     }
-    add_minuend(part_, parent, leaves_, motion, scene_);
+    const std::uint32_t part =
+        csg::add_operand(part_, motion, parent, leaves_, scene_);
+    scene_.program[part].is_minuend = true;
   }
 
   static constexpr std::uint32_t kNoLeaf = 0xffffffff;
@@ -289,7 +264,8 @@ csg::Scene cavities_of(const csg::Scene& part, const csg::Leaf& shell) {
   rest.leaves = part.leaves;
   rest.leaves.push_back(shell);
   rest.program.push_back({plane::BooleanOp::kDifference, 0, false, 1});
-  add_minuend(part, 0, 0, Affine(1.0), rest);
+  rest.program[csg::add_operand(part, Affine(1.0), 0, 0, rest)].is_minuend =
+      true;
   csg::Instance& wall = rest.instances.emplace_back();
   wall.leaf = static_cast<std::uint32_t>(part.leaves.size());
   wall.box = shell.box;

@@ -1,6 +1,8 @@
 #include "slicer/machine/material.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <stdexcept>
 
@@ -56,11 +58,35 @@ CastingLimits read_casting(const json& object) {
           detail::read_line(object, "source", "")};
 }
 
+// What the foot fades over, unless given, are the layers that are cured
+// longest.
+static_assert(Foot().layers == kFirstLayers);
+
+Compensation read_compensation(const json& object) {
+  detail::require_members(
+      object, {"contour_mm", "foot_mm", "foot_layers", "bleed_mm", "source"});
+  Compensation compensation;
+  compensation.contour = detail::read_number(
+      object, "contour_mm", -kGreatestCompensation, kGreatestCompensation, 0);
+  Foot& foot = compensation.foot;
+  foot.inset = detail::read_number(object, "foot_mm", 0, kGreatestFoot, 0);
+  const double layers = detail::read_number(object, "foot_layers", 1,
+                                            kMostFootLayers, foot.layers);
+  if (layers != std::floor(layers)) {
+    throw std::runtime_error("'foot_layers' is not a whole number");
+  }
+  foot.layers = static_cast<std::uint32_t>(layers);
+  compensation.bleed =
+      detail::read_number(object, "bleed_mm", 0, kGreatestBleed, 0);
+  detail::read_line(object, "source", "");
+  return compensation;
+}
+
 Material read_material(const json& object) {
   detail::require_members(
       object, {"name", "title", "also", "source", "density", "exposures",
                "price_per_litre", "price_per_gram", "price_per_ounce",
-               "currency", "support_tip_mm", "casting"});
+               "currency", "support_tip_mm", "casting", "compensation"});
   Material material;
   material.name = detail::read_line(object, "name");
   material.title = detail::read_line(object, "title", material.name);
@@ -74,6 +100,9 @@ Material read_material(const json& object) {
                           csg::kGreatestSupportTip, 0);
   if (object.contains("casting")) {
     material.casting = read_casting(object.at("casting"));
+  }
+  if (object.contains("compensation")) {
+    material.compensation = read_compensation(object.at("compensation"));
   }
   if (object.contains("exposures")) {
     for (const json& exposure : object.at("exposures")) {

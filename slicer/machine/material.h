@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/file/file_access.h"
+#include "slicer/contour/compensate.h"
 
 namespace lamina::slicer {
 
@@ -67,6 +68,7 @@ struct Material {
   std::optional<Price> price;
   double support_tip = 0;  // diameter of the tips that hold it [mm]; 0: usual
   std::optional<CastingLimits> casting;  // of a metal, if known
+  Compensation compensation;             // that its prints need, if known
 
   // [g]
   double weight(double volume_mm3) const { return density * volume_mm3 / 1000; }

@@ -241,6 +241,12 @@ SurfaceHeights surface_heights(const csg::Scene& scene,
   return heights;
 }
 
+double lowest_point(const csg::Scene& scene) {
+  csg::BoundaryFinder finder(scene);
+  const SurfaceHeights heights = surface_heights(scene, finder);
+  return heights.is_empty() ? scene.box.low.z : heights.low;
+}
+
 void place_on_bed(csg::Scene& scene) {
   csg::BoundaryFinder finder(scene);
   const SurfaceHeights heights = surface_heights(scene, finder);

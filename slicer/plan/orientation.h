@@ -83,6 +83,10 @@ struct SurfaceHeights {
 SurfaceHeights surface_heights(const csg::Scene& scene,
                                csg::BoundaryFinder& finder);
 
+// The height of the solid's lowest point; of the scene's box where nothing is
+// solid.
+double lowest_point(const csg::Scene& scene);
+
 // Shifts the scene upwards or downwards until its lowest point is at height 0;
 // x and y stay.
 void place_on_bed(csg::Scene& scene);

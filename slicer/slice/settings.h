@@ -9,6 +9,7 @@
 
 #include "ldni/image/paper_slicer.h"
 #include "slicer/check/print/print_rules.h"
+#include "slicer/contour/compensate.h"
 #include "slicer/contour/deviation.h"
 
 namespace lamina::slicer {
@@ -40,6 +41,7 @@ struct Settings {
   double ray_pitch = 0;         // [mm]; 0 = auto
   double tolerance = 0.001;     // [mm]; 0 writes all vertices
   double compensation = 0;      // [mm] inwards; negative: outwards
+  Foot foot;                    // of the first layers that have a contour
   // Walls and gaps thinner than this are searched for, in faithful contours
   // only [mm]; 0: there is no search.
   double min_feature = 0;
@@ -54,6 +56,9 @@ struct Settings {
 // Whether the layers are the whole print, so that the layer graph can say what
 // hangs together.
 bool makes_whole_print(const Settings& settings);
+
+// Whether some layer has other contours than the scene's section.
+bool moves_contours(const Settings& settings);
 
 // Bounds that the contours keep before they are written; none for the paper's.
 std::optional<Deviation> promised_deviation(const Settings& settings);

@@ -59,9 +59,17 @@ void warn_of_repairs(const SliceReport& report, Diagnostics& diagnostics) {
                   report.paper.repaired_pixels, report.renderer));
 }
 
+// The most that contours of a layer move.
+double greatest_move(const Settings& settings) {
+  return std::max(std::abs(settings.compensation),
+                  std::abs(settings.compensation + settings.foot.inset));
+}
+
 // Reports what is too thin for the beam: the layers are right, the print will
 // lack it.
-void warn_of_losses(const CompensationCounts& losses, double compensation,
+//
+// move  the most that contours move [mm]
+void warn_of_losses(const CompensationCounts& losses, double move,
                     Diagnostics& diagnostics) {
   const auto warn = [&](std::uint64_t loops, const char* loop,
                         std::uint64_t gaps, const char* gap) {
@@ -69,7 +77,7 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
     diagnostics.warning(
         {}, fmt::format("{} {} and {} {} of {} mm or less vanished in the "
                         "compensation, counted over all layers",
-                        loops, loop, gaps, gap, 2 * std::abs(compensation)));
+                        loops, loop, gaps, gap, 2 * move));
   };
   warn(losses.vanished_regions, "regions", losses.broken_walls, "walls");
   warn(losses.vanished_holes, "holes", losses.closed_gaps, "gaps");
@@ -124,11 +132,15 @@ bool makes_whole_print(const Settings& settings) {
          settings.written.last == all.last;
 }
 
+bool moves_contours(const Settings& settings) {
+  return settings.compensation != 0 || settings.foot.inset != 0;
+}
+
 std::optional<Deviation> promised_deviation(const Settings& settings) {
   if (settings.contour == ContourMode::kPaper) return std::nullopt;
   Deviation deviation;
   deviation.simplification = settings.tolerance;
-  if (settings.compensation != 0) deviation.compensation = kArcTolerance;
+  if (moves_contours(settings)) deviation.compensation = kArcTolerance;
   return deviation;
 }
 
@@ -193,7 +205,7 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   if (makes_whole_print(settings)) graph.emplace(settings.print);
   std::optional<SupportMeter> meter;
   if (supports && makes_whole_print(settings)) meter.emplace();
-  run_slice_job(plans, grid, settings, sink,
+  run_slice_job(plans, grid, LayerInsets(scene, grid, settings), settings, sink,
                 {features ? &*features : nullptr, graph ? &*graph : nullptr,
                  meter ? &*meter : nullptr},
                 report);
@@ -214,7 +226,7 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   }
   warn_of_broken_promises(report, diagnostics);
   warn_of_repairs(report, diagnostics);
-  warn_of_losses(report.losses, settings.compensation, diagnostics);
+  warn_of_losses(report.losses, greatest_move(settings), diagnostics);
   if (report.layers == 0) {
     if (report.layers_there > 0) throw_out_of_range(report, settings.written);
     require_height(scene, settings);
@@ -241,13 +253,13 @@ SliceReport slice_outline(const plane::Region& outline,
   if (settings.min_feature > 0) {
     report.features = find_thin_features(layer, settings.min_feature);
   }
-  report.losses = compensate(layer.contours, settings.compensation);
+  report.losses = compensate(layer.contours, layer.compensation);
   report.layers_there = 1;
   if (!settings.written.contains(1)) {
     throw_out_of_range(report, settings.written);
   }
   report.add(measure(layer.contours), 0, 0);
-  warn_of_losses(report.losses, settings.compensation, diagnostics);
+  warn_of_losses(report.losses, std::abs(settings.compensation), diagnostics);
   if (layer.contours.is_empty()) throw_empty(report);
   sink.begin(box_of(layer.contours));
   sink.take(layer);

@@ -78,7 +78,8 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
 std::vector<Layer> all_layers(const csg::Scene& scene,
                               const Settings& settings);
 
-// The one layer of a 2D design, at height 0, with all its vertices.
+// The one layer of a 2D design, at height 0, with all its vertices. It has no
+// foot.
 SliceReport slice_outline(const plane::Region& outline,
                           const Settings& settings, LayerSink& sink,
                           Diagnostics& diagnostics);

@@ -30,7 +30,7 @@ TEST(Validate, NumbersAreFinite) {
     layer.job.layer_thickness = value;
     EXPECT_NE(fault_of(layer), "") << value;
     Request compensation;
-    compensation.job.compensation = value;
+    compensation.compensation.contour = value;
     EXPECT_NE(fault_of(compensation), "") << value;
     Request heights;
     heights.job.heights = {value};
@@ -57,7 +57,7 @@ TEST(Validate, SaysWhatIsWrong) {
 TEST(Validate, LimitsBelongToWhatIsAllowed) {
   Request request;
   request.geometry.scale = Vec3(0.001);
-  request.job.compensation = -100;
+  request.compensation.contour = -100;
   request.job.tolerance = 0;
   request.job.threads = 1024;
   request.job.layer_thickness = std::numeric_limits<double>::denorm_min();

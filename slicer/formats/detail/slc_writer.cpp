@@ -55,7 +55,8 @@ class SlcWriter : public FloatWriter {
       bottom_z_ = z;
     } else {
       check_rise(last_z_, layer.bottom);
-      if (std::abs(layer.top - layer.bottom - thickness_) > kSameThickness) {
+      if (std::abs(layer.top - layer.bottom - thickness_) > kSameThickness ||
+          static_cast<float>(layer.compensation) != rows_.back().compensation) {
         add_row(layer);
       }
     }
@@ -87,8 +88,9 @@ class SlcWriter : public FloatWriter {
   void add_row(const Layer& layer) {
     if (rows_.size() == kMostRows) {
       throw FileError(
-          fmt::format("Can't write '{}': the thickness of layers changes more "
-                      "often than SLC's table, which holds {} rows, can say",
+          fmt::format("Can't write '{}': the thickness or the compensation of "
+                      "layers changes more often than SLC's table, which holds "
+                      "{} rows, can say",
                       output_.path(), kMostRows));
     }
     thickness_ = layer.top - layer.bottom;

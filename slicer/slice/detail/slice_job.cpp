@@ -69,12 +69,13 @@ class Worker {
  public:
   // sink  encodes layers, and takes none
   Worker(const Plans& plans, const ldni::LayerGrid& grid,
-         const Settings& settings, const LayerSink& sink)
+         const LayerInsets& insets, const Settings& settings,
+         const LayerSink& sink)
       : plans_(plans),
         grid_(grid),
+        insets_(insets),
         sink_(sink),
         self_supporting_(settings.print.self_supporting),
-        compensation_(settings.compensation),
         simplifier_(settings.tolerance) {
     if (settings.min_feature > 0) thin_finder_.emplace(settings.min_feature);
     if (makes_whole_print(settings)) overlay_sweep_.emplace();
@@ -103,7 +104,9 @@ class Worker {
     }
     repeats_.assign(block.layer_count, 0);
     for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-      repeats_[i] = slicer_->repeats(i) ? 1 : 0;
+      const bool repeats =
+          slicer_->repeats(i) && has_inset_of_last(block.first_layer + i);
+      repeats_[i] = repeats ? 1 : 0;
     }
   }
 
@@ -130,7 +133,7 @@ class Worker {
       if (repeats_[i] != 0) {
         block.layers[i] = block.layers[i - 1];
       } else {
-        finish_draft(block.layers[i]);
+        finish_draft(block.layers[i], insets_.of(block.first_layer + i));
       }
     }
   }
@@ -159,6 +162,11 @@ class Worker {
   }
 
  private:
+  // Whether a layer, not the first, is moved as far as the one before.
+  bool has_inset_of_last(std::uint32_t layer) const {
+    return insets_.of(layer) == insets_.of(layer - 1);
+  }
+
   // Visits the layers that do not repeat the one before.
   template <typename Visit>
   void for_each_new(Block& block, const Visit& visit) {
@@ -191,20 +199,22 @@ class Worker {
   }
 
   // Finishes contours of a share of the layer as those of all of it.
-  void finish_share(plane::Contours& contours) {
-    compensate(contours, compensation_);
+  void finish_share(plane::Contours& contours, double inset) {
+    compensate(contours, inset);
     simplifier_.simplify(contours);
   }
 
-  void finish_draft(Draft& draft) {
+  void finish_draft(Draft& draft, double inset) {
     Layer& layer = draft.layer;
-    draft.losses = compensate(layer.contours, compensation_);
-    layer.compensation = compensation_;
+    draft.losses = compensate(layer.contours, inset);
+    layer.compensation = inset;
     if (support_slicer_) {
-      finish_share(layer.part);
-      finish_share(layer.supports);
+      finish_share(layer.part, inset);
+      finish_share(layer.supports, inset);
     }
-    for (ColoredPart& colored : layer.colored) finish_share(colored.contours);
+    for (ColoredPart& colored : layer.colored) {
+      finish_share(colored.contours, inset);
+    }
     simplifier_.simplify(layer.contours);
     layer.clearance = simplifier_.clearance();
     draft.measures = measure(layer.contours);
@@ -214,9 +224,9 @@ class Worker {
 
   const Plans& plans_;
   const ldni::LayerGrid& grid_;
+  const LayerInsets& insets_;
   const LayerSink& sink_;
   const double self_supporting_;
-  const double compensation_;
   std::unique_ptr<BlockSlicer> slicer_;
   // If there are supports.
   std::unique_ptr<BlockSlicer> support_slicer_;
@@ -361,13 +371,16 @@ unsigned choose_threads(const Settings& settings, std::uint32_t block_count) {
 }  // namespace
 
 void run_slice_job(const Plans& plans, const ldni::LayerGrid& grid,
-                   const Settings& settings, LayerSink& sink,
-                   const Checks& checks, SliceReport& report) {
+                   const LayerInsets& insets, const Settings& settings,
+                   LayerSink& sink, const Checks& checks, SliceReport& report) {
   Job job(plans.whole, grid, settings, sink, checks, report);
   const Road<Block, Worker> road = {
       .start = [&](Block& block) { return job.start(block); },
       .make_worker =
-          [&] { return std::make_unique<Worker>(plans, grid, settings, sink); },
+          [&] {
+            return std::make_unique<Worker>(plans, grid, insets, settings,
+                                            sink);
+          },
       .work = {{report.section_seconds, &Worker::section},
                {report.sweep_seconds, &Worker::make_contours},
                {report.feature_seconds, &Worker::find_thin_places},

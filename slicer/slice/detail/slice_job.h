@@ -10,6 +10,7 @@
 #include "slicer/check/print/layer_graph.h"
 #include "slicer/check/thin/thin_features.h"
 #include "slicer/slice/detail/block_slicer.h"
+#include "slicer/slice/detail/layer_insets.h"
 #include "slicer/slice/settings.h"
 #include "slicer/slice/slice.h"
 #include "slicer/supports/support_contacts.h"
@@ -44,7 +45,7 @@ struct Plans {
 //
 // report  gets times and counts
 void run_slice_job(const Plans& plans, const ldni::LayerGrid& grid,
-                   const Settings& settings, LayerSink& sink,
-                   const Checks& checks, SliceReport& report);
+                   const LayerInsets& insets, const Settings& settings,
+                   LayerSink& sink, const Checks& checks, SliceReport& report);
 
 }  // namespace lamina::slicer

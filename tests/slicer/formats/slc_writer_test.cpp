@@ -180,6 +180,24 @@ TEST(SlcWriter, NotesTheCompensationInTheTable) {
   EXPECT_EQ(reader.facts().sampling[0].line_width_compensation, -0.25F);
 }
 
+TEST(SlcWriter, BeginsARowWhereTheCompensationChanges) {
+  std::vector<Layer> layers;
+  for (int i = 0; i < 5; ++i) {
+    layers.push_back(layer_at(i, i + 1, {{{0, 0}, {4, 0}, {0, 4}}}));
+    layers.back().compensation = i < 2 ? 0.3 - 0.1 * i : 0.1;
+  }
+  const TemporaryFolder folder;
+  SlcReader reader(folder.write("a.slc", write_slc(layers)));
+  const auto& rows = reader.facts().sampling;
+  ASSERT_EQ(rows.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(rows[i].min_z, static_cast<float>(i));
+    EXPECT_EQ(rows[i].thickness, 1.0F);
+    EXPECT_EQ(rows[i].line_width_compensation,
+              static_cast<float>(layers[i].compensation));
+  }
+}
+
 TEST(SlcWriter, HeaderEndsWithin2048BytesAndHolds1AOnlyThere) {
   const std::string bytes = write_slc(
       {layer_at(-1234.5678, -1234.5, {{{-9999, -1e-30}, {1e6, 0}, {0, 1e6}}})});
