@@ -152,9 +152,8 @@ compiler::CompensationRequest compensation_of(const std::string& text) {
   constexpr std::string_view kFoot = "foot=";
   constexpr std::string_view kBleed = "bleed=";
   compiler::CompensationRequest compensation;
-  const std::vector<std::string> words = words_of(text);
-  require(!words.empty(), "--compensate",
-          "expected MM, foot=MM, foot=MMxLAYERS or bleed=MM");
+  std::vector<std::string> words = words_of(text);
+  if (words.empty()) words.emplace_back();
   const auto once = [&](bool is_first) {
     require(is_first, "--compensate", "'{}' says something twice", text);
   };
@@ -167,6 +166,9 @@ compiler::CompensationRequest compensation_of(const std::string& text) {
       compensation.bleed =
           require_within("--compensate bleed", word.substr(kBleed.size()));
     } else {
+      require(word.find('=') == std::string::npos, "--compensate",
+              "expected MM, foot=MM, foot=MMxLAYERS or bleed=MM, not '{}'",
+              word);
       once(!compensation.contour);
       compensation.contour = require_within("--compensate", word);
     }
