@@ -4,8 +4,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 #include "base/paths.h"
 #include "base/text.h"
@@ -31,6 +35,8 @@ constexpr std::string_view kStyle =
     ".view{position:relative}.view img{width:100%;display:block}"
     ".view svg{position:absolute;inset:0;width:100%;height:100%}"
     ".view p{text-align:center;margin:0;color:#555}"
+    ".legend svg{height:1em;width:1.6em;vertical-align:-.15em;margin:0 .3em 0 "
+    "1.2em}"
     ".columns{display:grid;grid-template-columns:1fr 1fr;gap:0 "
     "8mm;align-items:start}"
     "@media(max-width:600px){.columns{grid-template-columns:1fr}}"
@@ -56,6 +62,42 @@ std::string letter_of(std::size_t index) {
   return letters;
 }
 
+// What metal reaches is blue. What it does not reach is orange, which the
+// colour-blind tell from blue (Okabe and Ito 2008), and striped, which black
+// ink shows too.
+constexpr slicer::Rgb kReached = {0.60F, 0.74F, 0.86F};
+constexpr slicer::Rgb kUnreached = {0.95F, 0.62F, 0.20F};
+constexpr slicer::Rgb kStripe = {0.45F, 0.22F, 0.02F};
+// From stripe to stripe, as a share of the picture, and how much of that a
+// stripe takes.
+constexpr double kStripeStep = 0.022;
+constexpr double kStripeShare = 0.3;
+
+// Colours of places by what metal reaches, in what a camera sees.
+class FeedingPaint {
+ public:
+  // shown  width of what the picture shows [mm]
+  FeedingPaint(const compiler::Preflight& found, const slicer::Camera& camera,
+               double shown)
+      : found_(found),
+        view_from_world_(camera.view_from_world()),
+        step_(kStripeStep * shown) {}
+
+  std::optional<slicer::Rgb> operator()(Vec3 place) const {
+    const auto cell = found_.cells.find_near(place);
+    if (!cell) return std::nullopt;
+    if (found_.is_reached[*cell]) return kReached;
+    const Vec4 view = view_from_world_ * Vec4(place, 1);
+    const double along = (view.x + view.y) / (std::numbers::sqrt2 * step_);
+    return along - std::floor(along) < kStripeShare ? kStripe : kUnreached;
+  }
+
+ private:
+  const compiler::Preflight& found_;
+  Mat4 view_from_world_;
+  double step_;
+};
+
 // Marks of findings in a picture, where the camera shows their places.
 class Marks {
  public:
@@ -63,15 +105,23 @@ class Marks {
       : clip_from_world_(camera.clip_from_view(1, box) *
                          camera.view_from_world()) {}
 
-  void add(Vec3 place, const std::string& label, const char* color) {
-    const Vec4 clip = clip_from_world_ * Vec4(place, 1);
-    const Vec2 at = (Vec2(clip.x, -clip.y) / clip.w + 1.0) * 50.0;
+  // A number in a disk.
+  void add_fault(Vec3 place, std::size_t number) {
+    const Vec2 at = picture_from(place);
     svg_ += fmt::format(
-        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"2.6\" fill=\"{3}\" "
-        "fill-opacity=\".85\"/><text x=\"{0:.1f}\" y=\"{2:.1f}\" font-size="
-        "\"3.4\" text-anchor=\"middle\" fill=\"#fff\" font-family="
-        "\"sans-serif\">{4}</text>",
-        at.x, at.y, at.y + 1.2, color, label);
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\" fill=\"#c0281c\" "
+        "fill-opacity=\".85\"/>",
+        at.x, at.y);
+    add_label(at, std::to_string(number));
+  }
+  // A letter in a square.
+  void add_heavy(Vec3 place, const std::string& letter) {
+    const Vec2 at = picture_from(place);
+    svg_ += fmt::format(
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"4.8\" height=\"4.8\" "
+        "fill=\"#222\" fill-opacity=\".85\"/>",
+        at.x - 2.4, at.y - 2.4);
+    add_label(at, letter);
   }
   std::string text() const {
     return "<svg viewBox=\"0 0 100 100\" aria-hidden=\"true\">" + svg_ +
@@ -79,6 +129,19 @@ class Marks {
   }
 
  private:
+  // As shares of the picture in percent, y down.
+  Vec2 picture_from(Vec3 place) const {
+    const Vec4 clip = clip_from_world_ * Vec4(place, 1);
+    return (Vec2(clip.x, -clip.y) / clip.w + 1.0) * 50.0;
+  }
+  void add_label(Vec2 at, const std::string& label) {
+    svg_ += fmt::format(
+        "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"3.4\" "
+        "text-anchor=\"middle\" fill=\"#fff\" font-family=\"sans-serif\">"
+        "{}</text>",
+        at.x, at.y + 1.2, label);
+  }
+
   Mat4 clip_from_world_;
   std::string svg_;
 };
@@ -94,16 +157,53 @@ std::string picture_of(const compiler::Preflight& found, const View& view) {
   options.camera.show_all(found.box);
   Marks marks(options.camera, found.box);
   for (std::size_t i = 0; i < std::min(found.unfed.size(), kMostRows); ++i) {
-    marks.add(found.unfed[i].pool.place, letter_of(i), "#1f5fa8");
+    marks.add_heavy(found.unfed[i].pool.place, letter_of(i));
   }
   for (std::size_t i = 0; i < std::min(found.too_thin.size(), kMostRows); ++i) {
-    marks.add(found.too_thin[i].place.place, std::to_string(i + 1), "#c0281c");
+    marks.add_fault(found.too_thin[i].place.place, i + 1);
   }
+  options.paint =
+      FeedingPaint(found, options.camera,
+                   2 * options.camera.distance *
+                       std::tan(glm::radians(options.camera.field_deg / 2)));
   return fmt::format(
       "<div class=\"view\"><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
       "{2}<p>{0}</p></div>\n",
       view.name, base64(png_of(draw_stack(found.layers, options))),
       marks.text());
+}
+
+std::string css_of(const slicer::Rgb& color) {
+  return fmt::format("rgb({:.0f},{:.0f},{:.0f})", 255 * color[0],
+                     255 * color[1], 255 * color[2]);
+}
+
+// What colours and marks of the pictures mean, as far as they have them.
+std::string legend_of(const compiler::Preflight& found) {
+  const auto key = [](const std::string& drawing, std::string_view words) {
+    return fmt::format(
+        "<svg viewBox=\"0 0 16 10\" aria-hidden=\"true\">{}</svg>{}", drawing,
+        words);
+  };
+  const auto field = [](const slicer::Rgb& color) {
+    return fmt::format("<path fill=\"{}\" d=\"M0 0h16v10H0z\"/>",
+                       css_of(color));
+  };
+  std::string text =
+      "<p class=\"legend\">" + key(field(kReached), "metal reaches it");
+  if (!found.unfed.empty()) {
+    const std::string stripes = fmt::format(
+        "<path stroke=\"{}\" stroke-width=\"1.5\" d=\"M-2 2l10 10M2 -1l12 "
+        "12M7 -1l10 10M12 -1l6 6\"/>",
+        css_of(kStripe));
+    text += key(field(kUnreached) + stripes,
+                "freezes by itself; A, B: its heaviest places");
+  }
+  if (!found.too_thin.empty()) {
+    text += key("<circle cx=\"8\" cy=\"5\" r=\"5\" fill=\"#c0281c\"/>",
+                "1, 2: too thin");
+  }
+  return text + "</p>\n";
 }
 
 std::string row(std::string_view name, std::string_view value) {
@@ -272,9 +372,9 @@ std::string preflight_page(const compiler::Preflight& found,
       found.metal.weight(found.volume), found.too_thin.empty() ? "good" : "bad",
       verdict_of(found));
   for (const View& view : kViews) page += picture_of(found, view);
-  page += "</div>\n<div class=\"columns\"><div><h2>Measures</h2>" +
-          facts_of(found) + "</div><div><h2>Weights</h2>" + weights_of(found) +
-          "</div></div>\n";
+  page += "</div>\n" + legend_of(found) +
+          "<div class=\"columns\"><div><h2>Measures</h2>" + facts_of(found) +
+          "</div><div><h2>Weights</h2>" + weights_of(found) + "</div></div>\n";
   page +=
       thin_of(found, folder) + feeding_of(found, folder) + parameters_of(found);
   page += fmt::format(

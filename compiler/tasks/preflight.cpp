@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -170,19 +172,38 @@ class Inspector {
     for (const auto& pool :
          slicer::find_pools(samples, balls, field, options_.gates)) {
       found_.thickest = std::max(found_.thickest, pool.thickness);
+        slicer::sample_solid(scene_, kDepthPitchShare * least);
+    const slicer::BallFinder balls(samples.points);
+    for (const auto& engraving : slicer::find_engravings(
+             samples, balls, {kWidestEngraving * least, least})) {
+      if (engraving.depth >= kLetPass * least) continue;
+      if (engraving.area < limits.gap * limits.gap) continue;
+      found_.too_shallow.push_back(
+          {engraving, least,
+           lines_of(scene_, engraving.instances[0], engraving.instances[1])});
+    }
+  }
+
+  void find_unfed() {
+    slicer::SolidSamples samples =
       if (!pool.is_fed) {
         found_.unfed.push_back({pool, lines_at(samples, balls, pool)});
       } else if (found_.gates.empty()) {
         found_.gates.push_back({pool.place, pool.thickness});
+    found_.is_reached.assign(samples.cells.size(), true);
       }
     }
   }
 
+        for (const std::uint32_t cell : pool.cells) {
+          found_.is_reached[cell] = false;
+        }
   // The line whose surface is nearest to the neck.
   SourceLines lines_at(const slicer::SolidSamples& samples,
                        const slicer::BallFinder& balls,
                        const slicer::Pool& pool) const {
     const Vec3 place = pool.neck_thickness > 0 ? pool.neck : pool.place;
+    found_.cells = std::move(samples.cells);
     const auto nearest =
         balls.nearest(place, std::numeric_limits<double>::infinity());
     if (!nearest) return {};

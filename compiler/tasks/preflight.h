@@ -18,6 +18,7 @@
 #include "slicer/thickness/thin_places.h"
 
 namespace lamina::compiler {
+#include "slicer/thickness/solid_samples.h"
 
 // What is thinner than the metal allows.
 struct TooThin {
@@ -70,6 +71,9 @@ double american_ring_size(double diameter);
 // where it is nothing or flat, and RequestError where no metal is named that
 // says what it asks for.
 std::optional<Preflight> preflight(Compilation& compilation,
+  // Cells of the piece, and by their number whether metal reaches them.
+  slicer::SolidCells cells;
+  std::vector<bool> is_reached;
                                    const PreflightOptions& options);
 
 }  // namespace lamina::compiler

@@ -219,6 +219,7 @@ class LitStack {
         view_from_world_(camera.view_from_world()),
         part_studio_(options.colors->solid, options.colors->shine),
         support_studio_(options.colors->supports, kPlainShine),
+        paint_(options.paint),
         points_(find_stack_points(layers, plates, camera, origin_, width_,
                                   height_)),
         normals_(layers, plates, size_),
@@ -247,7 +248,7 @@ class LitStack {
         const Vec3 normal = normals_.at(static_cast<int>(point.tag), place);
         if (open < 0) open = openness(px, py, normal);
         const Vec3 light =
-            studio_at(static_cast<std::size_t>(point.tag), Vec2(place))
+            studio_at(static_cast<std::size_t>(point.tag), place)
                 .light(Vec3(view_from_world_ * Vec4(normal, 0)), open);
         for (int c = 0; c < 3; ++c) {
           color[static_cast<std::size_t>(c)] =
@@ -272,9 +273,11 @@ class LitStack {
                    static_cast<std::size_t>(x)];
   }
 
-  Studio studio_at(std::size_t layer, Vec2 place) const {
-    if (bodies_.is_of_support(layer, place)) return support_studio_;
-    if (const auto color = bodies_.color_at(layer, place)) {
+  Studio studio_at(std::size_t layer, Vec3 place) const {
+    const std::optional<Rgb> painted = paint_ ? paint_(place) : std::nullopt;
+    if (painted) return Studio(*painted, kPlainShine);
+    if (bodies_.is_of_support(layer, Vec2(place))) return support_studio_;
+    if (const auto color = bodies_.color_at(layer, Vec2(place))) {
       return Studio(rgb(static_cast<unsigned>(*color)), kPlainShine);
     }
     return part_studio_;
@@ -330,6 +333,7 @@ class LitStack {
   Mat4 view_from_world_;
   Studio part_studio_;
   Studio support_studio_;
+  const std::function<std::optional<Rgb>(Vec3 place)>& paint_;
   std::vector<ldni::TaggedPoint> points_;
   Normals normals_;
   BodyPlaces bodies_;

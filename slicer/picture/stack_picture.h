@@ -12,6 +12,8 @@
 //
 // How much sky a place sees follows from the points around it in the picture.
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +47,9 @@ struct StackOptions {
   bool centers = true;    // the camera looks at the middle of the part
   bool shows_all = true;  // and from where all of it is seen
   const ColorScheme* colors = find_color_scheme("gold");
+  // The color of what is seen at a place, on any thread; where it has none, or
+  // this is empty, that of the layers or of the scheme.
+  std::function<std::optional<Rgb>(Vec3 place)> paint = {};
 };
 
 // layers  ascending; at least one of them with a contour

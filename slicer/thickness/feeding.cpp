@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -144,13 +145,16 @@ class Flood {
   }
 
   std::vector<Pool> collect() {
-    std::map<std::uint32_t, std::size_t> cells;  // of each pool, by its summit
-    for (const std::uint32_t pool : pool_of_) ++cells[pools_.find(pool)];
+    // Of each pool, by its summit.
+    std::map<std::uint32_t, std::vector<std::uint32_t>> cells;
+    for (std::uint32_t cell = 0; cell < pool_of_.size(); ++cell) {
+      cells[pools_.find(pool_of_[cell])].push_back(cell);
+    }
     // Without a gate the thickest is fed, and what joins it.
     const std::uint32_t fed = gates_.empty() && !cells.empty() ? 1 : 0;
     std::vector<Pool> pools;
-    for (const auto& [summit, count] : cells) {
-      pools.push_back(pool_at(summit, count, summit == fed));
+    for (auto& [summit, members] : cells) {
+      pools.push_back(pool_at(summit, std::move(members), summit == fed));
     }
     std::sort(pools.begin(), pools.end(), [](const Pool& a, const Pool& b) {
       return std::tuple(a.is_fed, -a.volume) < std::tuple(b.is_fed, -b.volume);
@@ -158,7 +162,8 @@ class Flood {
     return pools;
   }
 
-  Pool pool_at(std::uint32_t summit, std::size_t count, bool is_fed) {
+  Pool pool_at(std::uint32_t summit, std::vector<std::uint32_t> members,
+               bool is_fed) {
     Pool pool;
     // What joins the gate has its own highest cell.
     const std::uint32_t cell =
@@ -166,7 +171,8 @@ class Flood {
     pool.place = samples_.cells.middle_of(cells_[cell]);
     pool.thickness = 2 * field_.radii[cell];
     const double pitch = samples_.cells.pitch();
-    pool.volume = static_cast<double>(count) * pitch * pitch * pitch;
+    pool.volume = static_cast<double>(members.size()) * pitch * pitch * pitch;
+    pool.cells = std::move(members);
     pool.is_fed = is_fed;
     const auto neck = necks_.find(summit);
     if (neck != necks_.end()) {

@@ -56,7 +56,9 @@ struct Gate {
 struct Pool {
   Vec3 place = Vec3(0);  // the middle of its largest ball
   double thickness = 0;  // the diameter of that [mm]
-  double volume = 0;     // of the cells that freeze towards it [mm³]
+  // The cells that freeze towards it, by ascending number.
+  std::vector<std::uint32_t> cells;
+  double volume = 0;  // of those [mm³]
   // Where it is joined to another pool or to the gate: the thickest neck. Has
   // no thickness where nothing joins it.
   Vec3 neck = Vec3(0);

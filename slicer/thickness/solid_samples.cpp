@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include <glm/geometric.hpp>
 
 #include "base/parallel.h"
 #include "csg/boundary/move_scene.h"
@@ -143,6 +146,29 @@ SolidCells::Index SolidCells::index_at(Vec3 place) const {
   return {static_cast<std::int32_t>(steps.x),
           static_cast<std::int32_t>(steps.y),
           static_cast<std::int32_t>(steps.z)};
+}
+
+std::optional<std::uint32_t> SolidCells::find_near(Vec3 place) const {
+  const Index around = index_at(place);
+  std::optional<std::uint32_t> nearest = find(around);
+  // What is nearest in a cube may be farther than what is beside the cube, by
+  // less than a step.
+  for (std::int32_t reach = 1; !nearest && reach <= kFarSteps; ++reach) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::int32_t z = around.z - reach; z <= around.z + reach; ++z) {
+      for (std::int32_t x = around.x - reach; x <= around.x + reach; ++x) {
+        for (std::int32_t y = around.y - reach; y <= around.y + reach; ++y) {
+          const auto cell = find({x, y, z});
+          if (!cell) continue;
+          const double distance = glm::length(middle_of({x, y, z}) - place);
+          if (distance >= least) continue;
+          least = distance;
+          nearest = cell;
+        }
+      }
+    }
+  }
+  return nearest;
 }
 
 SolidSamples sample_solid(const csg::Scene& scene, double pitch) {

@@ -66,6 +66,11 @@ class SolidCells {
   }
   // The cell around a place, inside or not.
   Index index_at(Vec3 place) const;
+  // The number of the cell around a place, or of the one with the nearest
+  // middle where that is not inside; no value where none is within kFarSteps
+  // steps along each axis.
+  std::optional<std::uint32_t> find_near(Vec3 place) const;
+  static constexpr std::int32_t kFarSteps = 3;
   // Calls visit(number, index) for all cells, by ascending number.
   template <typename Visit>
   void visit(const Visit& visit) const {

@@ -1,14 +1,18 @@
 // lamina preflight, on pieces whose measures are known.
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/lamina.h"
+#include "tests/cli/png_picture.h"
 #include "tests/support/text.h"
 
 namespace lamina::cli {
@@ -20,6 +24,22 @@ using support::read_file;
 using support::TemporaryFolder;
 
 constexpr double kSilver = 10.36e-3;  // [g/mm³]
+
+// Reads what base64() of the program wrote.
+std::string from_base64(std::string_view text) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::size_t bits = 0;
+  unsigned held = 0;
+  for (const char c : text.substr(0, text.find('='))) {
+    held = held << 6 | static_cast<unsigned>(kDigits.find(c));
+    if ((bits += 6) < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(held >> bits & 255);
+  }
+  return bytes;
+}
 
 struct Found {
   json report;
@@ -147,6 +167,82 @@ TEST(Preflight, NamesWhatMetalReachesThroughAThinnerPlace) {
   const json both =
       preflight(kDumbbell, {"--gate", "-11,0,0", "--gate", "11,0,0,6"}).report;
   EXPECT_TRUE(both["unfed"].empty());
+}
+
+// The pictures of a page, in its order.
+std::vector<Picture> pictures_of(const std::string& design,
+                                 const std::vector<std::string>& options) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", design);
+  std::vector<std::string> words = {"preflight",       "a.scad", "--metal",
+                                    "sterling-silver", "-o",     "o.html"};
+  words.insert(words.end(), options.begin(), options.end());
+  EXPECT_EQ(run(folder, words).errors, "");
+  const std::string page = read_file(folder.file("o.html"));
+  constexpr std::string_view kBegin = "data:image/png;base64,";
+  std::vector<Picture> pictures;
+  for (std::size_t at = 0; (at = page.find(kBegin, at)) != std::string::npos;) {
+    at += kBegin.size();
+    pictures.push_back(read_png(folder.write(
+        "o.png", from_base64(page.substr(at, page.find('"', at) - at)))));
+  }
+  return pictures;
+}
+
+struct Painted {
+  std::size_t reached = 0;  // blue pixels
+  std::size_t apart = 0;    // orange pixels, and stripes in brown
+  double left = 1;          // of what is orange, as a share of the picture
+};
+
+Painted count_painted(const Picture& picture) {
+  Painted count;
+  for (unsigned y = 0; y < picture.height; ++y) {
+    for (unsigned x = 0; x < picture.width; ++x) {
+      const auto [red, green, blue] = picture.at(x, y);
+      if (blue > red + 12) ++count.reached;
+      if (red > blue + 12) {
+        ++count.apart;
+        count.left =
+            std::min(count.left, static_cast<double>(x) / picture.width);
+      }
+    }
+  }
+  return count;
+}
+
+// The far ball and half of the rod freeze by themselves.
+TEST(Preflight, PaintsWhatMetalDoesNotReach) {
+  const auto pictures = pictures_of(kDumbbell, {"--gate", "-11,0,0"});
+  ASSERT_EQ(pictures.size(), 3U);
+  for (const std::size_t view : {0U, 2U}) {  // from the front and from above
+    const Painted count = count_painted(pictures[view]);
+    const auto all = static_cast<double>(count.reached + count.apart);
+    EXPECT_GT(all, 5000);
+    // A ball has 9 π mm² of the picture, the rod between them 4 (8 - √8); the
+    // rod is as thick everywhere, so that it may go with either ball, up to its
+    // middle.
+    const double ball = 9 * std::numbers::pi;
+    const double rod = 4 * (8 - std::sqrt(8));
+    const double share = static_cast<double>(count.apart) / all;
+    EXPECT_GT(share, ball / (2 * ball + rod) - 0.02);
+    EXPECT_LT(share, 0.52);
+    EXPECT_GT(count.left, 0.48);
+  }
+  // From the right the far ball hides all else.
+  const Painted right = count_painted(pictures[1]);
+  EXPECT_GT(right.apart, 2000U);
+  EXPECT_LT(right.reached, right.apart / 50);
+}
+
+TEST(Preflight, PaintsNoPartOfAConeThatIsFedAtItsBase) {
+  for (const Picture& picture :
+       pictures_of("cylinder(r1 = 5, r2 = 0, h = 12, $fn = 96);",
+                   {"--gate", "0,0,0"})) {
+    const Painted count = count_painted(picture);
+    EXPECT_GT(count.reached, 5000U);
+    EXPECT_EQ(count.apart, 0U);
+  }
 }
 
 TEST(Preflight, WritesAPageThatNeedsNoOtherFile) {
