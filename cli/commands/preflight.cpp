@@ -33,9 +33,10 @@ constexpr std::size_t kMostRows = 8;
 constexpr std::string_view kPreflightHelp =
     R"(Usage: lamina preflight DESIGN --metal METAL [-o FILE] [OPTION]...
 
-Says what a casting house asks of a piece: walls, prongs and gaps thinner than
-the metal allows, weights, size, ring size, and heavy places that metal reaches
-only through thinner ones. Exit status 1 where something is too thin.
+Says what a casting house asks of a piece: walls, prongs, gaps and engravings
+thinner or shallower than the metal allows, weights, size, ring size, and heavy
+places that metal reaches only through thinner ones. Exit status 1 where
+something is too thin or too shallow.
 
   -o FILE             write it as a page of A4 with pictures (.html) or JSON
                       (.json)
@@ -98,7 +99,7 @@ class PreflightCommand : public Command {
                                  : preflight_page(*found, request_.design.path),
                              context.temporary_files);
       }
-      return found->too_thin.empty() ? kDone : kFault;
+      return found->is_ready() ? kDone : kFault;
     });
   }
 
@@ -125,14 +126,12 @@ class PreflightCommand : public Command {
   }
 
   static std::string thin_text(const compiler::Preflight& found) {
-    const slicer::CastingLimits& limits = *found.metal.casting;
-    const std::string least =
-        fmt::format("walls from {} mm, wires from {}, gaps from {}",
-                    limits.wall, limits.wire, limits.gap);
-    if (found.too_thin.empty()) {
-      return fmt::format("nothing is too thin ({})\n", least);
+    const std::string least = least_text(*found.metal.casting);
+    if (found.is_ready()) {
+      return fmt::format("nothing is too thin or too shallow ({})\n", least);
     }
-    std::string text = fmt::format("{} ({}):\n", fault_text(found), least);
+    std::string text =
+        fmt::format("{} (asked for: {}):\n", fault_text(found), least);
     for (std::size_t i = 0; i < found.too_thin.size() && i < kMostRows; ++i) {
       const compiler::TooThin& one = found.too_thin[i];
       text += fmt::format("  {} of {:.2f} mm, {:.2f} mm², at {}: {}\n",
@@ -140,7 +139,16 @@ class PreflightCommand : public Command {
                           place_text(one.place.place),
                           compiler::text_of(one.lines));
     }
-    return text + rest_text(found.too_thin.size());
+    text += rest_text(found.too_thin.size());
+    for (std::size_t i = 0; i < found.too_shallow.size() && i < kMostRows;
+         ++i) {
+      const auto& [engraving, least_depth, lines] = found.too_shallow[i];
+      text +=
+          fmt::format("  engraving {:.2f} mm deep, {:.2f} mm wide, at {}: {}\n",
+                      engraving.depth, engraving.width,
+                      place_text(engraving.place), compiler::text_of(lines));
+    }
+    return text + rest_text(found.too_shallow.size());
   }
 
   static std::string feeding_text(const compiler::Preflight& found) {
@@ -193,6 +201,7 @@ class PreflightCommand : public Command {
     json["asked_for"] = {{"wall_mm", limits.wall},
                          {"wire_mm", limits.wire},
                          {"gap_mm", limits.gap},
+                         {"engraving_depth_mm", limits.engraving},
                          {"finishing_mm", limits.finishing},
                          {"source", limits.source}};
     json["edges"] = found.edges;
@@ -204,6 +213,15 @@ class PreflightCommand : public Command {
                                   {"area_mm2", one.place.area},
                                   {"place", cli::json_of(one.place.place)},
                                   {"lines", compiler::text_of(one.lines)}});
+    }
+    json["too_shallow"] = ordered_json::array();
+    for (const auto& [engraving, least, lines] : found.too_shallow) {
+      json["too_shallow"].push_back({{"depth_mm", engraving.depth},
+                                     {"least_mm", least},
+                                     {"width_mm", engraving.width},
+                                     {"area_mm2", engraving.area},
+                                     {"place", cli::json_of(engraving.place)},
+                                     {"lines", compiler::text_of(lines)}});
     }
     json["gates"] = ordered_json::array();
     for (const slicer::Gate& gate : found.gates) {

@@ -146,6 +146,13 @@ class Marks {
   std::string svg_;
 };
 
+// What pictures and lists call an engraving: they count on from what is too
+// thin.
+std::size_t shallow_number(const compiler::Preflight& found,
+                           std::size_t index) {
+  return std::min(found.too_thin.size(), kMostRows) + index + 1;
+}
+
 std::string picture_of(const compiler::Preflight& found, const View& view) {
   slicer::StackOptions options;
   options.width = options.height = kPictureSide;
@@ -155,6 +162,10 @@ std::string picture_of(const compiler::Preflight& found, const View& view) {
   options.camera.turn_deg = view.turn_deg;
   options.camera.center_on(found.box);
   options.camera.show_all(found.box);
+  options.paint =
+      FeedingPaint(found, options.camera,
+                   2 * options.camera.distance *
+                       std::tan(glm::radians(options.camera.field_deg / 2)));
   Marks marks(options.camera, found.box);
   for (std::size_t i = 0; i < std::min(found.unfed.size(), kMostRows); ++i) {
     marks.add_heavy(found.unfed[i].pool.place, letter_of(i));
@@ -162,10 +173,11 @@ std::string picture_of(const compiler::Preflight& found, const View& view) {
   for (std::size_t i = 0; i < std::min(found.too_thin.size(), kMostRows); ++i) {
     marks.add_fault(found.too_thin[i].place.place, i + 1);
   }
-  options.paint =
-      FeedingPaint(found, options.camera,
-                   2 * options.camera.distance *
-                       std::tan(glm::radians(options.camera.field_deg / 2)));
+  for (std::size_t i = 0; i < std::min(found.too_shallow.size(), kMostRows);
+       ++i) {
+    marks.add_fault(found.too_shallow[i].engraving.place,
+                    shallow_number(found, i));
+  }
   return fmt::format(
       "<div class=\"view\"><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
       "{2}<p>{0}</p></div>\n",
@@ -199,9 +211,9 @@ std::string legend_of(const compiler::Preflight& found) {
     text += key(field(kUnreached) + stripes,
                 "freezes by itself; A, B: its heaviest places");
   }
-  if (!found.too_thin.empty()) {
+  if (!found.is_ready()) {
     text += key("<circle cx=\"8\" cy=\"5\" r=\"5\" fill=\"#c0281c\"/>",
-                "1, 2: too thin");
+                "1, 2: too thin or too shallow");
   }
   return text + "</p>\n";
 }
@@ -223,9 +235,7 @@ std::string facts_of(const compiler::Preflight& found) {
                                               ring_size_text(found.finger)));
   }
   text += row("thickest place", fmt::format("{:.2f} mm", found.thickest));
-  text += row("asked for",
-              fmt::format("walls {} mm, prongs and wires {} mm, gaps {} mm",
-                          limits.wall, limits.wire, limits.gap));
+  text += row("asked for", least_text(limits));
   text += row("finishing takes",
               fmt::format("up to {} mm of a surface", limits.finishing));
   return text + "</table>\n";
@@ -267,6 +277,27 @@ std::string thin_of(const compiler::Preflight& found,
   return text + "</table></div>\n" + more_of(found.too_thin.size());
 }
 
+std::string shallow_of(const compiler::Preflight& found,
+                       const std::string& folder) {
+  if (found.too_shallow.empty()) return "";
+  std::string text =
+      "<h2>Too shallow</h2><div class=\"list\"><table><tr><th></th><th></th>"
+      "<th class=\"n\">is deep</th><th class=\"n\">asked for</th><th class="
+      "\"n\">is wide</th><th>at</th><th>made by</th></tr>\n";
+  for (std::size_t i = 0; i < std::min(found.too_shallow.size(), kMostRows);
+       ++i) {
+    const auto& [engraving, least, lines] = found.too_shallow[i];
+    text += fmt::format(
+        "<tr><td>{}</td><td>engraving</td><td class=\"n\">{:.2f} mm</td><td "
+        "class=\"n\">{:.2f} mm</td><td class=\"n\">{:.2f} mm</td><td>{}</td>"
+        "<td><code>{}</code></td></tr>\n",
+        shallow_number(found, i), engraving.depth, least, engraving.width,
+        place_text(engraving.place),
+        escape_html(compiler::text_from(folder, lines)));
+  }
+  return text + "</table></div>\n" + more_of(found.too_shallow.size());
+}
+
 std::string feeding_of(const compiler::Preflight& found,
                        const std::string& folder) {
   std::string gates;
@@ -298,8 +329,9 @@ std::string feeding_of(const compiler::Preflight& found,
 
 std::string verdict_of(const compiler::Preflight& found) {
   const std::string faults = fault_text(found);
-  std::string text = faults.empty() ? "Nothing is thinner than the metal allows"
-                                    : "Not ready: " + faults;
+  std::string text = faults.empty()
+                         ? "No measure is below what the metal asks for"
+                         : "Not ready: " + faults;
   if (!found.unfed.empty()) {
     text += fmt::format("; metal reaches {} through thinner ones only",
                         counted(found.unfed.size(), "heavy place"));
@@ -350,6 +382,20 @@ std::string fault_text(const compiler::Preflight& found) {
                         counted(count, kind), count == 1 ? "is" : "are",
                         kind == std::string_view("gap") ? "narrow" : "thin");
   }
+  if (const std::size_t count = found.too_shallow.size(); count > 0) {
+    text += fmt::format("{}{} {} too shallow", text.empty() ? "" : ", ",
+                        counted(count, "engraving"), count == 1 ? "is" : "are");
+  }
+  return text;
+}
+
+std::string least_text(const slicer::CastingLimits& limits) {
+  std::string text =
+      fmt::format("walls {} mm, prongs and wires {} mm, gaps {} mm",
+                  limits.wall, limits.wire, limits.gap);
+  if (limits.engraving > 0) {
+    text += fmt::format(", engravings {} mm deep", limits.engraving);
+  }
   return text;
 }
 
@@ -369,14 +415,14 @@ std::string preflight_page(const compiler::Preflight& found,
       "<style>{1}</style></head><body>\n<h1>{0}</h1><p>To be cast in {2}: "
       "{3:.2f} g</p>\n<p class=\"verdict {4}\">{5}</p>\n<div class=\"views\">",
       name, kStyle, escape_html(found.metal.title),
-      found.metal.weight(found.volume), found.too_thin.empty() ? "good" : "bad",
+      found.metal.weight(found.volume), found.is_ready() ? "good" : "bad",
       verdict_of(found));
   for (const View& view : kViews) page += picture_of(found, view);
   page += "</div>\n" + legend_of(found) +
           "<div class=\"columns\"><div><h2>Measures</h2>" + facts_of(found) +
           "</div><div><h2>Weights</h2>" + weights_of(found) + "</div></div>\n";
-  page +=
-      thin_of(found, folder) + feeding_of(found, folder) + parameters_of(found);
+  page += thin_of(found, folder) + shallow_of(found, folder) +
+          feeding_of(found, folder) + parameters_of(found);
   page += fmt::format(
       "<p>Least measures: {}. Thickness is that of the largest ball, measured "
       "by rays {:.2f} mm apart.</p></body></html>\n",

@@ -17,6 +17,9 @@ std::string ring_size_text(double diameter);
 // where nothing does.
 std::string fault_text(const compiler::Preflight& found);
 
+// "walls 0.8 mm, prongs and wires 0.6 mm, …": the least that a metal allows.
+std::string least_text(const slicer::CastingLimits& limits);
+
 // "wall", "gap" or "wire".
 std::string kind_of(const compiler::TooThin& one);
 

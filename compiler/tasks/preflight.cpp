@@ -29,8 +29,10 @@ namespace lamina::compiler {
 namespace {
 
 // Thin places are looked for with rays whose pitch is this share of the least
-// thickness that is asked for.
+// thickness that is asked for; engravings with rays of their own, by the least
+// depth.
 constexpr double kPitchShare = 0.4;
+constexpr double kDepthPitchShare = 0.2;
 // What is thinner by less than this share passes: facets of a round wire are
 // nearer to its middle than its nominal radius is.
 constexpr double kLetPass = 0.95;
@@ -128,12 +130,7 @@ class Inspector {
       : scene_(scene), options_(options), found_(found) {}
 
   void measure() {
-    find_thin(*found_.metal.casting);
-    find_unfed();
-  }
-
- private:
-  void find_thin(const slicer::CastingLimits& limits) {
+    const slicer::CastingLimits& limits = *found_.metal.casting;
     found_.pitch =
         kPitchShare * std::min({limits.wall, limits.wire, limits.gap});
     const slicer::SolidSamples samples =
@@ -142,6 +139,15 @@ class Inspector {
     for (const slicer::SurfacePoint& point : samples.points) {
       found_.area += point.area;
     }
+    find_thin(samples, balls, limits);
+    if (limits.engraving > 0) find_shallow(limits);
+    find_unfed();
+  }
+
+ private:
+  void find_thin(const slicer::SolidSamples& samples,
+                 const slicer::BallFinder& balls,
+                 const slicer::CastingLimits& limits) {
     const double widest = std::max({limits.wall, limits.wire, limits.gap});
     for (const auto& place : slicer::find_thin_places(samples, balls, widest)) {
       const bool is_wire = place.shape == slicer::ThinShape::kWire;
@@ -163,15 +169,9 @@ class Inspector {
     }
   }
 
-  void find_unfed() {
+  void find_shallow(const slicer::CastingLimits& limits) {
+    const double least = limits.engraving;
     const slicer::SolidSamples samples =
-        slicer::sample_solid(scene_, std::cbrt(found_.volume / kCells));
-    const slicer::BallFinder balls(samples.points);
-    const auto field = slicer::measure_thickness(samples, balls);
-    found_.gates = options_.gates;
-    for (const auto& pool :
-         slicer::find_pools(samples, balls, field, options_.gates)) {
-      found_.thickest = std::max(found_.thickest, pool.thickness);
         slicer::sample_solid(scene_, kDepthPitchShare * least);
     const slicer::BallFinder balls(samples.points);
     for (const auto& engraving : slicer::find_engravings(
@@ -186,24 +186,31 @@ class Inspector {
 
   void find_unfed() {
     slicer::SolidSamples samples =
-      if (!pool.is_fed) {
-        found_.unfed.push_back({pool, lines_at(samples, balls, pool)});
-      } else if (found_.gates.empty()) {
-        found_.gates.push_back({pool.place, pool.thickness});
+        slicer::sample_solid(scene_, std::cbrt(found_.volume / kCells));
+    const slicer::BallFinder balls(samples.points);
+    const auto field = slicer::measure_thickness(samples, balls);
+    found_.gates = options_.gates;
     found_.is_reached.assign(samples.cells.size(), true);
-      }
-    }
-  }
-
+    for (const auto& pool :
+         slicer::find_pools(samples, balls, field, options_.gates)) {
+      found_.thickest = std::max(found_.thickest, pool.thickness);
+      if (!pool.is_fed) {
         for (const std::uint32_t cell : pool.cells) {
           found_.is_reached[cell] = false;
         }
+        found_.unfed.push_back({pool, lines_at(samples, balls, pool)});
+      } else if (found_.gates.empty()) {
+        found_.gates.push_back({pool.place, pool.thickness});
+      }
+    }
+    found_.cells = std::move(samples.cells);
+  }
+
   // The line whose surface is nearest to the neck.
   SourceLines lines_at(const slicer::SolidSamples& samples,
                        const slicer::BallFinder& balls,
                        const slicer::Pool& pool) const {
     const Vec3 place = pool.neck_thickness > 0 ? pool.neck : pool.place;
-    found_.cells = std::move(samples.cells);
     const auto nearest =
         balls.nearest(place, std::numeric_limits<double>::infinity());
     if (!nearest) return {};

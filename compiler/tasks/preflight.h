@@ -1,10 +1,10 @@
 #pragma once
 // Preflight: what a casting house asks before it takes a piece.
 //
-// Is any wall, wire or gap thinner than the metal allows; what does the piece
-// weigh; does metal reach its heavy places; how large is it, and the finger
-// that it fits. All of it is measured of the solid that would come out
-// of the printer: what is compensated comes out as drawn.
+// Is any wall, wire or gap thinner than the metal allows, or an engraving
+// shallower; what does the piece weigh; does metal reach its heavy places; how
+// large is it, and the finger that it fits. All of it is measured of the solid
+// that would come out of the printer: what is compensated comes out as drawn.
 
 #include <cstddef>
 #include <optional>
@@ -14,16 +14,24 @@
 #include "compiler/compilation.h"
 #include "parser/customizer/customizer.h"
 #include "slicer/machine/material.h"
+#include "slicer/thickness/engravings.h"
 #include "slicer/thickness/feeding.h"
+#include "slicer/thickness/solid_samples.h"
 #include "slicer/thickness/thin_places.h"
 
 namespace lamina::compiler {
-#include "slicer/thickness/solid_samples.h"
 
 // What is thinner than the metal allows.
 struct TooThin {
   slicer::ThinPlace place;
   double least = 0;  // that the metal asks for [mm]
+  SourceLines lines;
+};
+
+// An engraving that is shallower than the metal allows.
+struct TooShallow {
+  slicer::Engraving engraving;
+  double least = 0;  // depth that the metal asks for [mm]
   SourceLines lines;
 };
 
@@ -54,13 +62,25 @@ struct Preflight {
   // such.
   std::vector<TooThin> too_thin;
   std::size_t edges = 0;  // that taper to nothing, and are not listed
-  double thickest = 0;    // diameter of the largest ball inside [mm]
+  // The shallowest first, by more than a twentieth, but for those with a floor
+  // smaller than a square of the least gap.
+  std::vector<TooShallow> too_shallow;
+  double thickest = 0;  // diameter of the largest ball inside [mm]
   // What is not fed, the largest first, and where metal enters.
   std::vector<Unfed> unfed;
   std::vector<slicer::Gate> gates;
+  // Cells of the piece, and by their number whether metal reaches them.
+  slicer::SolidCells cells;
+  std::vector<bool> is_reached;
   std::vector<CustomizerEntry> parameters;
   double pitch = 0;  // of the rays that measured thickness [mm]
+
+  // Whether the metal allows all measures.
+  bool is_ready() const { return too_thin.empty() && too_shallow.empty(); }
 };
+
+// An engraving is no wider than its depth should be, times this.
+inline constexpr double kWidestEngraving = 2;
 
 // Ring sizes of an inner diameter [mm]: the circumference [mm] in Europe (ISO
 // 8653), and that of the USA, of which each is 0.032 inches wider.
@@ -71,9 +91,6 @@ double american_ring_size(double diameter);
 // where it is nothing or flat, and RequestError where no metal is named that
 // says what it asks for.
 std::optional<Preflight> preflight(Compilation& compilation,
-  // Cells of the piece, and by their number whether metal reaches them.
-  slicer::SolidCells cells;
-  std::vector<bool> is_reached;
                                    const PreflightOptions& options);
 
 }  // namespace lamina::compiler

@@ -47,14 +47,20 @@ Price read_price(const json& object, const char* member,
 }
 
 CastingLimits read_casting(const json& object) {
-  detail::require_members(
-      object, {"wall_mm", "wire_mm", "gap_mm", "finishing_mm", "source"});
+  detail::require_members(object,
+                          {"wall_mm", "wire_mm", "gap_mm", "engraving_depth_mm",
+                           "finishing_mm", "source"});
   const auto read = [&](const char* member, double least) {
     object.at(member);  // which none can do without
     return detail::read_number(object, member, least, kGreatestCasting, 0);
   };
-  return {read("wall_mm", kLeastCasting), read("wire_mm", kLeastCasting),
-          read("gap_mm", kLeastCasting), read("finishing_mm", 0),
+  return {read("wall_mm", kLeastCasting),
+          read("wire_mm", kLeastCasting),
+          read("gap_mm", kLeastCasting),
+          object.contains("engraving_depth_mm")
+              ? read("engraving_depth_mm", kLeastCasting)
+              : 0,
+          read("finishing_mm", 0),
           detail::read_line(object, "source", "")};
 }
 

@@ -53,6 +53,7 @@ struct CastingLimits {
   double wall = 0;       // least thickness of a wall
   double wire = 0;       // least diameter of a prong or a wire
   double gap = 0;        // least width of an engraving or a gap
+  double engraving = 0;  // least depth of an engraving; 0: any
   double finishing = 0;  // what filing and polishing take of a surface, at most
   std::string source;
 };

@@ -46,16 +46,25 @@ struct Found {
   int status = 0;
 };
 
+Found preflight_file(const TemporaryFolder& folder, const std::string& path,
+                     const std::vector<std::string>& options) {
+  std::vector<std::string> words = {"preflight",       path, "--metal",
+                                    "sterling-silver", "-o", "o.json"};
+  words.insert(words.end(), options.begin(), options.end());
+  const int status = run(folder, words).status;
+  return {json::parse(read_file(folder.file("o.json"))), status};
+}
+
 Found preflight(const std::string& design,
                 const std::vector<std::string>& options = {}) {
   const TemporaryFolder folder;
   folder.write("a.scad", design);
-  std::vector<std::string> words = {"preflight",       "a.scad", "--metal",
-                                    "sterling-silver", "-o",     "o.json"};
-  words.insert(words.end(), options.begin(), options.end());
-  const auto result = run(folder, words);
-  EXPECT_EQ(result.errors, "");
-  return {json::parse(read_file(folder.file("o.json"))), result.status};
+  return preflight_file(folder, "a.scad", options);
+}
+
+Found preflight_example(const std::string& name,
+                        const std::vector<std::string>& options = {}) {
+  return preflight_file(TemporaryFolder(), LAMINA_EXAMPLES "/" + name, options);
 }
 
 TEST(Preflight, PassesAThickPieceAndWeighsIt) {
@@ -242,6 +251,35 @@ TEST(Preflight, PaintsNoPartOfAConeThatIsFedAtItsBase) {
     const Painted count = count_painted(picture);
     EXPECT_GT(count.reached, 5000U);
     EXPECT_EQ(count.apart, 0U);
+  }
+}
+
+TEST(Preflight, FindsAShallowEngraving) {
+  for (const auto& [depth, status] : {std::pair{0.3, 1}, {0.5, 0}}) {
+    const auto found =
+        preflight("difference() { cube([8, 8, 3]); translate([2, 2, 3 - " +
+                  std::to_string(depth) + "]) cube([4, 0.5, 3]); }");
+    EXPECT_EQ(found.status, status);
+    const json& shallow = found.report["too_shallow"];
+    ASSERT_EQ(shallow.size(), static_cast<std::size_t>(status));
+    if (status == 0) continue;
+    EXPECT_NEAR(shallow[0]["depth_mm"].get<double>(), depth, 1e-6);
+    EXPECT_NEAR(shallow[0]["width_mm"].get<double>(), 0.5, 1e-6);
+    EXPECT_EQ(shallow[0]["least_mm"], 0.5);
+    EXPECT_EQ(shallow[0]["lines"], "a.scad:1:65");
+  }
+}
+
+TEST(Preflight, MeasuresTheLettersOfASignet) {
+  for (const double depth : {0.3, 0.5}) {
+    const json shallow =
+        preflight_example("signet.scad",
+                          {"-D", "depth=" + std::to_string(depth)})
+            .report["too_shallow"];
+    EXPECT_EQ(shallow.empty(), depth == 0.5);
+    for (const json& one : shallow) {
+      EXPECT_NEAR(one["depth_mm"].get<double>(), depth, 1e-3);
+    }
   }
 }
 
