@@ -34,8 +34,8 @@ constexpr std::string_view kPreflightHelp =
     R"(Usage: lamina preflight DESIGN --metal METAL [-o FILE] [OPTION]...
 
 Says what a casting house asks of a piece: walls, prongs, gaps and engravings
-thinner or shallower than the metal allows, weights, size, ring size, and heavy
-places that metal reaches only through thinner ones. Exit status 1 where
+thinner or shallower than the metal allows, weights, size, ring size, stones, and
+heavy places that metal reaches only through thinner ones. Exit status 1 where
 something is too thin or too shallow.
 
   -o FILE             write it as a page of A4 with pictures (.html) or JSON
@@ -122,7 +122,19 @@ class PreflightCommand : public Command {
       text += fmt::format("{}{} {:.2f} g", i == 1 ? "  in " : ", ",
                           metals[i].title, metals[i].weight(found.volume));
     }
-    return text + "\n" + thin_text(found) + feeding_text(found);
+    return text + "\n" + stones_text(found) + thin_text(found) +
+           feeding_text(found);
+  }
+
+  static std::string stones_text(const compiler::Preflight& found) {
+    std::string text;
+    for (const compiler::StoneParameter& one : found.stones) {
+      const std::string size = stone_text(one);
+      text += fmt::format("{}{} = {}{}", text.empty() ? "  stones: " : "; ",
+                          one.entry.name, one.entry.value,
+                          size.empty() ? "" : " (" + size + ")");
+    }
+    return text.empty() ? "" : text + "\n";
   }
 
   static std::string thin_text(const compiler::Preflight& found) {
@@ -236,6 +248,16 @@ class PreflightCommand : public Command {
                                {"neck_mm", pool.neck_thickness},
                                {"neck", cli::json_of(pool.neck)},
                                {"lines", compiler::text_of(lines)}});
+    }
+    json["stones"] = ordered_json::array();
+    for (const compiler::StoneParameter& one : found.stones) {
+      ordered_json stone = {{"name", one.entry.name},
+                            {"value", one.entry.value}};
+      if (one.diameter) {
+        stone["diameter_mm"] = *one.diameter;
+        stone["carats"] = *one.carats;
+      }
+      json["stones"].push_back(stone);
     }
     json["parameters"] = ordered_json::object();
     for (const CustomizerEntry& one : found.parameters) {

@@ -339,13 +339,34 @@ std::string verdict_of(const compiler::Preflight& found) {
   return text;
 }
 
+std::string stones_of(const compiler::Preflight& found) {
+  if (found.stones.empty()) return "";
+  std::string text = "<h2>Stones</h2><table>\n";
+  for (const compiler::StoneParameter& one : found.stones) {
+    text += fmt::format(
+        "<tr><th><code>{}</code></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        escape_html(one.entry.name), escape_html(one.entry.value),
+        stone_text(one), escape_html(one.entry.comment.description));
+  }
+  return text +
+         "</table><p>Sizes are those of round brilliants: diameter² × 0.6 "
+         "diameter × 0.0061.</p>\n";
+}
+
+// All that are not of stones.
 std::string parameters_of(const compiler::Preflight& found) {
-  if (found.parameters.empty()) return "";
+  std::vector<CustomizerEntry> parameters = found.parameters;
+  std::erase_if(parameters, [&](const CustomizerEntry& one) {
+    return std::ranges::any_of(found.stones, [&](const auto& stone) {
+      return stone.entry.name == one.name;
+    });
+  });
+  if (parameters.empty()) return "";
   std::string text = "<h2>Parameters</h2><div class=\"columns\">";
-  const std::size_t half = (found.parameters.size() + 1) / 2;
-  for (std::size_t i = 0; i < found.parameters.size(); ++i) {
+  const std::size_t half = (parameters.size() + 1) / 2;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (i % half == 0) text += i == 0 ? "<table>\n" : "</table><table>\n";
-    const CustomizerEntry& one = found.parameters[i];
+    const CustomizerEntry& one = parameters[i];
     const std::string& words = one.comment.description;
     text += fmt::format(
         "<tr><th><code>{}</code></th><td>{}</td><td>{}</td>"
@@ -370,6 +391,11 @@ std::string ring_size_text(double diameter) {
   return fmt::format("EU {:g}, US {:g}",
                      rounded(compiler::european_ring_size(diameter), 0.5),
                      rounded(compiler::american_ring_size(diameter), 0.25));
+}
+
+std::string stone_text(const compiler::StoneParameter& stone) {
+  if (!stone.diameter) return "";
+  return fmt::format("{:.2f} mm, {:.3f} ct", *stone.diameter, *stone.carats);
 }
 
 std::string fault_text(const compiler::Preflight& found) {
@@ -422,7 +448,7 @@ std::string preflight_page(const compiler::Preflight& found,
           "<div class=\"columns\"><div><h2>Measures</h2>" + facts_of(found) +
           "</div><div><h2>Weights</h2>" + weights_of(found) + "</div></div>\n";
   page += thin_of(found, folder) + shallow_of(found, folder) +
-          feeding_of(found, folder) + parameters_of(found);
+          feeding_of(found, folder) + stones_of(found) + parameters_of(found);
   page += fmt::format(
       "<p>Least measures: {}. Thickness is that of the largest ball, measured "
       "by rays {:.2f} mm apart.</p></body></html>\n",

@@ -13,6 +13,9 @@ std::string place_text(Vec3 place);
 // "EU 54.5, US 7": what sizes an inner diameter [mm] is.
 std::string ring_size_text(double diameter);
 
+// "2.30 mm, 0.045 ct": of a stone; empty where nothing says its size.
+std::string stone_text(const compiler::StoneParameter& stone);
+
 // What keeps a piece from being cast, in words: "2 walls are too thin"; empty
 // where nothing does.
 std::string fault_text(const compiler::Preflight& found);

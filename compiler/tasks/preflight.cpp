@@ -263,6 +263,7 @@ std::optional<Preflight> preflight(Compilation& c,
     found.box.add(Vec3(measures.box.high, layer.top));
   }
   found.parameters = list_parameters(c.design.program);
+  found.stones = find_stones(found.parameters);
   found.finger = find_finger(scene, settings);
   Inspector(scene, options, found).measure();
   return found;

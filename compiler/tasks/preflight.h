@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compiler/compilation.h"
+#include "compiler/tasks/stones.h"
 #include "parser/customizer/customizer.h"
 #include "slicer/machine/material.h"
 #include "slicer/thickness/engravings.h"
@@ -73,6 +74,7 @@ struct Preflight {
   slicer::SolidCells cells;
   std::vector<bool> is_reached;
   std::vector<CustomizerEntry> parameters;
+  std::vector<StoneParameter> stones;  // those of the parameters
   double pitch = 0;  // of the rays that measured thickness [mm]
 
   // Whether the metal allows all measures.

@@ -283,6 +283,35 @@ TEST(Preflight, MeasuresTheLettersOfASignet) {
   }
 }
 
+TEST(Preflight, ListsStones) {
+  const json report =
+      preflight(
+          "/* [Halo] */\n// diameter of the gems\nsmall = 2; // [1:3]\n/* "
+          "[Centre stone] */\n// weight of the diamond [carat]\nweight = 1;\n"
+          "stone_d = 3;\n// share of the diameter\nbite = 0.1;\n/* [Band] */"
+          "\n// metal beside the stones\nedge = 0.4;\narrangement = 3;\n"
+          "cube(9);")
+          .report;
+  const json& stones = report["stones"];
+  ASSERT_EQ(stones.size(), 4U);
+  EXPECT_EQ(stones[0]["name"], "small");
+  EXPECT_NEAR(stones[0]["carats"].get<double>(), 2 * 2 * 1.2 * 0.0061, 1e-12);
+  // A brilliant of one carat is some 6.5 mm wide.
+  EXPECT_EQ(stones[1]["carats"], 1);
+  EXPECT_NEAR(stones[1]["diameter_mm"].get<double>(), 6.49, 0.01);
+  EXPECT_EQ(stones[2]["diameter_mm"], 3);
+  EXPECT_EQ(stones[3]["name"], "bite");
+  EXPECT_FALSE(stones[3].contains("carats"));
+}
+
+TEST(Preflight, ListsTheStonesOfExamples) {
+  EXPECT_EQ(preflight_example("solitaire.scad").report["stones"][0]["carats"],
+            1);
+  EXPECT_EQ(
+      preflight_example("eternity.scad").report["stones"][0]["diameter_mm"],
+      2.3);
+}
+
 TEST(Preflight, WritesAPageThatNeedsNoOtherFile) {
   const TemporaryFolder folder;
   folder.write("<i>.scad",
