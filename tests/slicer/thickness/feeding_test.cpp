@@ -173,6 +173,85 @@ const Casting kCastings[] = {
     {"cube(4); translate([6, 0, 0]) cube(4);",
      {{Vec3(2, 2, 4)}, {Vec3(8, 2, 4)}},
      0},
+    // A ring whose shank swells to a heavy head, fed at its foot and at both.
+    {"rotate_extrude($fn = 64) translate([8, 0]) circle(0.9, $fn = 24); hull() "
+     "for (x = [-2, 2]) translate([x, 8.5, 0]) sphere(1.9, $fn = 48);",
+     {{Vec3(0, -8.9, 0)}},
+     1},
+    {"rotate_extrude($fn = 64) translate([8, 0]) circle(0.9, $fn = 24); hull() "
+     "for (x = [-2, 2]) translate([x, 8.5, 0]) sphere(1.9, $fn = 48);",
+     {{Vec3(0, -8.9, 0)}, {Vec3(0, 10.4, 0)}},
+     0},
+    // Two heads, a feed at one of them.
+    {"rotate_extrude($fn = 64) translate([8, 0]) circle(0.9, $fn = 24); for (y "
+     "= [-8.5, 8.5]) translate([0, y, 0]) sphere(1.9, $fn = 48);",
+     {{Vec3(0, 10.4, 0)}},
+     1},
+    // A shank that grows steadily from its foot to its head, fed at the head.
+    {"for (a = [0 : 10 : 170]) for (m = [-1, 1]) hull() for (b = [a, a + 10]) "
+     "rotate(90 + m * b) translate([8, 0, 0]) sphere(1.8 - b / 225, $fn = "
+     "24);",
+     {{Vec3(0, 9.8, 0)}},
+     0},
+    {"for (a = [0 : 10 : 170]) for (m = [-1, 1]) hull() for (b = [a, a + 10]) "
+     "rotate(90 + m * b) translate([8, 0, 0]) sphere(1.8 - b / 225, $fn = "
+     "24);",
+     {{Vec3(0, -9, 0)}},
+     1},
+    // A bezel on a thin bar, fed at the bar's end: its floor is heavier.
+    {"cube([16, 1.4, 1.4], center = true); translate([0, 0, -1.5]) "
+     "difference() { cylinder(r = 3, h = 5, $fn = 64); translate([0, 0, 3.1]) "
+     "cylinder(r = 2.2, h = 4, $fn = 64); }",
+     {{Vec3(-8, 0, 0)}},
+     1},
+    // A hoop that is open, as thick from end to end.
+    {"rotate_extrude(angle = 300, $fn = 64) translate([7, 0]) circle(1.1, $fn "
+     "= 24);",
+     {{Vec3(7, 0, 0)}},
+     0},
+    // A pendant: a drop below a thin bail, fed at the bail and at its heart.
+    {"hull() { sphere(2.4, $fn = 48); translate([0, 5, 0]) sphere(0.8, $fn = "
+     "24); } translate([0, 6.9, 0]) rotate([0, 90, 0]) rotate_extrude($fn = "
+     "48) translate([1.6, 0]) circle(0.6, $fn = 24);",
+     {{Vec3(0, 9.1, 0)}},
+     1},
+    {"hull() { sphere(2.4, $fn = 48); translate([0, 5, 0]) sphere(0.8, $fn = "
+     "24); } translate([0, 6.9, 0]) rotate([0, 90, 0]) rotate_extrude($fn = "
+     "48) translate([1.6, 0]) circle(0.6, $fn = 24);",
+     {{Vec3(0, -2.4, 0)}},
+     0},
+    // A cross of bars: level sides hold the ball where they cross.
+    {"cube([12, 2, 2], center = true); cube([2, 12, 2], center = true);",
+     {{Vec3(-6, 0, 0)}},
+     0},
+    // A hollow ball with a boss, fed at its wall and at the boss.
+    {"difference() { sphere(6, $fn = 64); sphere(5, $fn = 64); } "
+     "translate([0, 0, 5]) sphere(1.8, $fn = 48);",
+     {{Vec3(0, 0, -6)}},
+     1},
+    {"difference() { sphere(6, $fn = 64); sphere(5, $fn = 64); } "
+     "translate([0, 0, 5]) sphere(1.8, $fn = 48);",
+     {{Vec3(0, 0, 6.8)}},
+     0},
+    // A thin bar across a thick one, fed at either.
+    {"cube([3, 12, 3], center = true); translate([6, 0, 0]) cube([12, 1.5, "
+     "1.5], center = true);",
+     {{Vec3(0, -6, 0)}},
+     0},
+    {"cube([3, 12, 3], center = true); translate([6, 0, 0]) cube([12, 1.5, "
+     "1.5], center = true);",
+     {{Vec3(12, 0, 0)}},
+     1},
+    // Two links of a chain that do not touch, fed at one.
+    {"for (i = [0, 1]) translate([5 * i, 0, 0]) rotate([90 * i, 0, 0]) "
+     "rotate_extrude($fn = 48) translate([4, 0]) circle(0.9, $fn = 24);",
+     {{Vec3(-4.9, 0, 0)}},
+     1},
+    // A bar that becomes thinner in the middle, and thick again.
+    {"for (i = [0 : 4]) translate([3 * i, 0, 0]) rotate([0, 90, 0]) cylinder("
+     "r = 1.2 + 0.4 * abs(i - 2), h = 3.01, $fn = 48);",
+     {{Vec3(0, 0, 0)}},
+     1},
 };
 
 class Castings : public testing::TestWithParam<int> {};
