@@ -1,8 +1,11 @@
 #include "compiler/look_at.h"
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
+
+#include <glm/geometric.hpp>
 
 #include "compiler/compile.h"
 #include "compiler/validate.h"
@@ -68,6 +71,43 @@ slicer::LayerFileFacts read_slc(const std::string& path, Looker& looker,
   return reader.facts();
 }
 
+// How much thinner than asked for a place is at least, and how fine the rays
+// are that find it: as preflight has it.
+constexpr double kLetPass = 0.95;
+constexpr double kPitchShare = 0.4;
+// Of more rays, some gigabytes of points would come [1].
+constexpr double kMostRays = 4e6;
+
+// Whether the place is thin in a layer, too, which shows it exactly.
+bool is_in_layers(const slicer::ThinPlace& place, double width) {
+  const double level = std::hypot(place.across.x, place.across.y);
+  return level > 0 && place.width / level < width;
+}
+
+std::optional<std::vector<HiddenThin>> find_hidden(const csg::Scene& scene,
+                                                   double width) {
+  const double pitch = kPitchShare * width;
+  const Vec3 steps = scene.box.size() / pitch;
+  if (steps.x * steps.y + steps.y * steps.z + steps.z * steps.x > kMostRays) {
+    return std::nullopt;
+  }
+  const slicer::SolidSamples samples = slicer::sample_solid(scene, pitch);
+  const slicer::BallFinder balls(samples.points);
+  std::vector<HiddenThin> hidden;
+  for (const auto& place : slicer::find_thin_places(samples, balls, width)) {
+    const bool is_small = place.shape == slicer::ThinShape::kWire
+                              ? glm::length(place.box.size()) < width
+                              : place.area < width * width;
+    if (place.shape == slicer::ThinShape::kEdge || is_small ||
+        place.width >= kLetPass * width || is_in_layers(place, width)) {
+      continue;
+    }
+    hidden.push_back(
+        {place, lines_of(scene, place.instances[0], place.instances[1])});
+  }
+  return hidden;
+}
+
 }  // namespace
 
 bool holds_layers(const std::string& path, const FileAccess& access) {
@@ -117,6 +157,9 @@ Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
   inspection.found.supports = std::move(report.supports);
   if (settings.min_feature > 0) {
     inspection.found.features = std::move(report.features);
+    if (options.finds_hidden && lowered.scene() != nullptr) {
+      inspection.hidden = find_hidden(*lowered.scene(), settings.min_feature);
+    }
   }
   return inspection;
 }

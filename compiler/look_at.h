@@ -10,6 +10,7 @@
 #include "base/file/file_access.h"
 #include "compiler/compilation.h"
 #include "slicer/check/defects/inspect.h"
+#include "slicer/thickness/thin_places.h"
 
 namespace lamina::compiler {
 
@@ -34,10 +35,20 @@ struct LookOptions {
   // Walls and gaps thinner than this are searched for in the layers as they are
   // written [mm]; 0: none are.
   double min_feature = 0;
+  // Whether a design is searched for what is thinner than the request's
+  // min_feature in space, and in no layer: tens of times the cost. Parts that
+  // are more than some thousand times as large are not.
+  bool finds_hidden = false;
   // Whether the layer graph is made of a file; of a design the slicer makes it.
   bool makes_graph = true;
   bool keeps_layers = false;
   bool keeps_colors = false;  // with these layers: of a design's color()
+};
+
+// A wall, wire or gap that lies flat or leans, so that its layers are wide.
+struct HiddenThin {
+  slicer::ThinPlace place;
+  SourceLines lines;
 };
 
 struct Inspection {
@@ -45,6 +56,8 @@ struct Inspection {
   slicer::Inspection found;
   FoundLines lines;  // of a design
   std::vector<slicer::Layer> layers;
+  // The thinnest first; no value where they were not searched for.
+  std::optional<std::vector<HiddenThin>> hidden;
 };
 
 // Looks at the request's file or design. No value where the design failed,

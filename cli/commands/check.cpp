@@ -13,6 +13,7 @@
 #include "cli/process/streams.h"
 #include "cli/report/feature_table.h"
 #include "cli/report/finding_table.h"
+#include "cli/report/hidden_table.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/look_at.h"
@@ -39,7 +40,8 @@ would go wrong. It takes the options of slicing and writes no file:
 
 Each has its layers, its place, its size and, in a design, the line that makes
 it; the worst comes first. With --printer it says whether the part fits; with
---min-feature, which walls and gaps are thin. What is smaller than a pixel of
+--min-feature, which walls and gaps are thin: in a layer, and of a design also
+in space, where they lie flat or lean. What is smaller than a pixel of
 the printer (0.001 mm² where none is named) is only counted. The exit status is
 1 if something would go wrong, or with --fail-on, if that would.
 
@@ -106,10 +108,12 @@ class CheckCommand : public Command {
     const bool is_file =
         compiler::holds_layers(request.design.path, compilation.file_access());
     const auto inspection = compiler::look_at(
-        compilation, {.min_feature = is_file ? request.job.min_feature : 0});
+        compilation, {.min_feature = is_file ? request.job.min_feature : 0,
+                      .finds_hidden = !is_file});
     if (!inspection) return kFault;
     const compiler::Machine& machine = compilation.report.machine;
-    const auto& [found, lines, layers] = *inspection;
+    const slicer::Inspection& found = inspection->found;
+    const compiler::FoundLines& lines = inspection->lines;
     report_skipped(compilation, found.file);
     const slicer::PrintCheck& print = *found.print;
     if (is_json_) {
@@ -127,7 +131,9 @@ class CheckCommand : public Command {
     const bool fits =
         !machine.printer || slicer::fits(*machine.printer, found.box.size());
     const bool harms = !print.counts(request.job.print.fail_on).empty();
-    return fits && found.features.empty() && !harms ? kDone : kFault;
+    const bool is_thin = !found.features.empty() ||
+                         (inspection->hidden && !inspection->hidden->empty());
+    return fits && !is_thin && !harms ? kDone : kFault;
   }
 
   // is_design  whether options of slicing can change how it stands
@@ -167,6 +173,9 @@ class CheckCommand : public Command {
     if (request.job.min_feature > 0) {
       text += feature_table(found.features, request.job.min_feature,
                             compiler::texts_of(inspection.lines.features));
+      if (is_design) {
+        text += hidden_table(inspection.hidden, request.job.min_feature);
+      }
     }
     return text;
   }

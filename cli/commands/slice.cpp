@@ -57,7 +57,7 @@ Output:
                         .slc             layers for wax and resin printers
                         .cli             Common Layer Interface
                         .svg             polygons per layer, or a 2D design
-                        .png             a picture, or a folder of images (a.png/)
+                        .png             a picture, or images in a folder
                         .sl1             images for Prusa's resin printers
                         .goo .ctb        images for printers of Elegoo, and with
                                          ChiTuBox's firmware (versions 2 to 4)
@@ -65,7 +65,7 @@ Output:
                         .slices.3mf      a stack of slices
                         .layers.json     layers as JSON, in full precision
                         .csg .echo .ast .param  tree, echoes, syntax, parameters
-  --printer P         a name of 'lamina printers', or a profile: fit, time, pixels
+  --printer P         a name of 'lamina printers', or a profile: fit, time
   --material M        likewise the resin or wax: exposure, weight, price
   --metal M           the metal that is cast from it: weight, price
   --price PRICES      of these: 60/l, 55/kg, 62.5/g, '1900 EUR/oz' (troy ounce)
@@ -87,7 +87,7 @@ Slicing (lengths in millimetres):
                       =heavy 0.4 or a diameter; =heavy,raft on a raft [medium]
   --hollow MM         hollow the part, with walls of MM and drains (--help-all)
   --sprue             add sprues for casting, as 'lamina sprue' does
-  --scale FACTOR      enlarge the print where casting shrinks: 1.02, or X,Y,Z [1]
+  --scale FACTOR      enlarge it where castings shrink: 1.02, or X,Y,Z [1]
   --compensate MM     move contours inwards; foot=MMxLAYERS: first layers more;
                       bleed=MM: undersides up; 0.03,foot=0.1x3,bleed=0.05 [0]
 

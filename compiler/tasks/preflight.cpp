@@ -36,9 +36,6 @@ constexpr double kDepthPitchShare = 0.2;
 // What is thinner by less than this share passes: facets of a round wire are
 // nearer to its middle than its nominal radius is.
 constexpr double kLetPass = 0.95;
-// Heavy places are looked for with so many cells: in a ring they are a tenth of
-// a millimetre wide.
-constexpr double kCells = 2e5;
 
 // Fingers fit into holes of these diameters [mm], from the smallest child's
 // ring to the largest size that is sold.
@@ -185,8 +182,7 @@ class Inspector {
   }
 
   void find_unfed() {
-    slicer::SolidSamples samples =
-        slicer::sample_solid(scene_, std::cbrt(found_.volume / kCells));
+    slicer::SolidSamples samples = slicer::sample_casting(scene_);
     const slicer::BallFinder balls(samples.points);
     const auto field = slicer::measure_thickness(samples, balls);
     found_.gates = options_.gates;

@@ -84,6 +84,23 @@ TEST(Sprue, IsReportedAndSized) {
   EXPECT_LT(added, disc + sprues["volume_mm3"].get<double>() + 1.0 * ball);
 }
 
+// Of the examples, which have small heavy places where wires cross; what is
+// seen of a ring stays whole.
+TEST(Sprue, FindsAWayInAllExamples) {
+  const TemporaryFolder folder;
+  for (const char* name : {"solitaire", "eternity", "signet", "hoop", "pendant",
+                           "filigree", "braid", "medal"}) {
+    const std::string design = LAMINA_EXAMPLES + ("/" + std::string(name));
+    const auto result =
+        run(folder, {"sprue", design + ".scad", "-o", "a.scad"});
+    EXPECT_EQ(result.status, 0) << name << result.errors;
+    EXPECT_FALSE(has(result.errors, "warning")) << name << result.errors;
+    if (std::string(name) == "signet") {
+      EXPECT_TRUE(has(result.errors, "all is fed from the root"));
+    }
+  }
+}
+
 // Supports hold sprues as well, and scales enlarge them.
 TEST(Sprue, GoesWithSupportsScalesAndDirections) {
   const TemporaryFolder folder;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -358,6 +359,36 @@ TEST(Machine, OfContoursGetsContours) {
       << images.errors;
   EXPECT_EQ(run(folder, {"check", "a.scad", "--printer", "b9creator"}).status,
             0);
+}
+
+// A plate 0.5 mm thick is as thin however it lies. Upright, its layers show it.
+TEST(Check, FindsThinPlatesThatNoLayerShows) {
+  const TemporaryFolder folder;
+  for (const auto& [turn, is_hidden] :
+       {std::pair{"[0, 0, 0]", true}, std::pair{"[60, 0, 0]", false},
+        std::pair{"[30, 0, 0]", true}, std::pair{"[90, 0, 0]", false}}) {
+    folder.write("a.scad", "rotate(" + std::string(turn) +
+                               ") cube([9, 7, 0.5], center = true);");
+    const auto result = run(folder, {"check", "a.scad", "--min-feature", "0.7",
+                                     "--fail-on", "islands"});
+    EXPECT_EQ(has(result.output, "flat or leaning: 1 place"), is_hidden)
+        << turn << result.output;
+    EXPECT_EQ(has(result.output, "thinner than 0.7 mm: 1 wall"), !is_hidden)
+        << turn << result.output;
+    if (is_hidden) {
+      EXPECT_EQ(result.status, 1);
+      EXPECT_TRUE(has(result.output, "     wall  ")) << result.output;
+    }
+  }
+  folder.write("a.scad", "cube([9, 7, 2]);");
+  EXPECT_EQ(run(folder, {"check", "a.scad", "--min-feature", "0.7"}).status, 0);
+  // A file has layers alone; a large part is not searched, and told so.
+  EXPECT_FALSE(has(
+      run(folder, {"check", "a.scad", "--min-feature", "0.7"}).output, "flat"));
+  folder.write("a.scad", "cube([900, 700, 20]);");
+  EXPECT_TRUE(
+      has(run(folder, {"check", "a.scad", "--min-feature", "0.2"}).output,
+          "not looked for"));
 }
 
 }  // namespace
