@@ -90,6 +90,7 @@ class SpruePlanner {
 
   std::optional<SpruePlan> plan() {
     const std::vector<Pool> pools = pools_to_feed();
+    if (pools.empty()) return std::nullopt;
     if (auto plan = feed(pools)) return plan;
     // A smaller place that nobody sees does not feed, but is what goldsmiths
     // choose then.
@@ -203,10 +204,20 @@ class SpruePlanner {
         return std::nullopt;
       }
     }
-    const double ahead = (1 - kGateDepth) * kGateShare * end.radius;
+    const double ball = kGateShare * end.radius;
+    const Vec3 gate = end.centre + (out + (1 - kGateDepth) * ball) * along;
+    if (is_met_ahead(gate, ball, along)) return std::nullopt;
     Way way = way_at(end.centre + out * along, end.radius);
-    way.gate = end.centre + (out + ahead) * along;
+    way.gate = gate;
     return way;
+  }
+
+  // Whether a ball meets the piece with its half that looks away from it.
+  bool is_met_ahead(Vec3 middle, double radius, Vec3 along) const {
+    return std::ranges::any_of(
+        balls_.points_within(middle, radius), [&](std::uint32_t point) {
+          return glm::dot(samples_.points[point].place - middle, along) > 0;
+        });
   }
 
   Way way_at(Vec3 gate, double radius) const {

@@ -207,11 +207,20 @@ class Flood {
 SolidSamples sample_casting(const csg::Scene& scene) {
   constexpr double kFirstCells = 3e5;  // of the box, to know the volume
   constexpr double kCells = 2e5;       // of the solid
+  constexpr double kMostRays = 1e6;    // along an axis, for a thin plate
   const Vec3 size = glm::max(scene.box.size(), Vec3(kLeastRadius));
-  const double first = std::cbrt(size.x * size.y * size.z / kFirstCells);
-  const SolidSamples coarse = sample_solid(scene, first);
-  const double filled = static_cast<double>(coarse.cells.size()) / kCells;
-  return filled > 0 ? sample_solid(scene, first * std::cbrt(filled)) : coarse;
+  double pitch = std::cbrt(size.x * size.y * size.z / kFirstCells);
+  SolidSamples samples = sample_solid(scene, pitch);
+  const double face =
+      std::max({size.x * size.y, size.y * size.z, size.z * size.x});
+  while (samples.cells.size() == 0 && 4 * face < kMostRays * pitch * pitch) {
+    samples = sample_solid(scene, pitch /= 2);
+  }
+  if (samples.cells.size() == 0) return samples;
+  // A thin plate has fewer cells, rather than none.
+  const double filled = static_cast<double>(samples.cells.size()) / kCells;
+  SolidSamples fine = sample_solid(scene, pitch * std::cbrt(filled));
+  return fine.cells.size() > 0 ? fine : samples;
 }
 
 ThicknessField measure_thickness(const SolidSamples& samples,

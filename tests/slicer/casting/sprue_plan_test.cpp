@@ -111,6 +111,15 @@ TEST(PlanSprues, KeepsAwayFromThePiece) {
   }
 }
 
+// A sheet thinner than the first look's cells has its own.
+TEST(PlanSprues, SamplesThinSheets) {
+  for (const char* sheet : {"cube([60, 60, 0.1]);", "cube([2, 3, 0.02]);",
+                            "rotate([10, 20, 0]) cube([80, 80, 0.2]);"}) {
+    const Design design = Design::from_text(sheet);
+    EXPECT_GT(sample_casting(design.scene()).cells.size(), 1000U) << sheet;
+  }
+}
+
 // In a closed ring's hole a sprue has no way out; from a ball in a shell there
 // is none at all.
 TEST(PlanSprues, SaysWhereThereIsNoWay) {
