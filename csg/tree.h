@@ -46,7 +46,7 @@ struct Facets {
 // --- Operations -----------------------------------------------------------
 // Groups are unions; the name is what `.csg` prints ("group", "union").
 struct Group {
-  bool is_call = false;  // of a module of the design: what it makes is one thing
+  bool is_call = false;  // of a module of the design: it makes one thing
 };
 struct Union {};
 struct Difference {};

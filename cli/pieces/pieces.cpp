@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "base/paths.h"
+#include "cli/options/output_pattern.h"
 #include "cli/pieces/ledger.h"
 #include "cli/pieces/outcomes.h"
-#include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/run_on_stack.h"
 #include "cli/process/streams.h"

@@ -50,9 +50,9 @@ struct LowerOptions {
   // Reads STEP, IGES and BREP, which are errors without it.
   cad::Reader* cad_reader = nullptr;
   const FileAccess* file_access = &kAllFiles;  // what import() may read
-  // Scales the whole design about its origin, outlines too (`--scale`): along x,
-  // y and z of the world, positive. Facets are those of the design before. What
-  // a node with $rigid makes is moved and keeps its size.
+  // Scales the whole design about its origin, outlines too (`--scale`): along
+  // x, y and z of the world, positive. Facets are those of the design before.
+  // What a node with $rigid makes is moved and keeps its size.
   Vec3 scale = Vec3(1);
   Language language = Language::k2021;  // lower() sets it to the tree's
 };

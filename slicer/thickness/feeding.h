@@ -40,8 +40,8 @@ struct ThicknessField {
 inline constexpr double kReach = 0.8660254037844386;
 
 // The solid, sampled finely enough to see what feeds what: in a ring the cells
-// are a tenth of a millimetre wide. Plates that are thousands of times as wide as
-// they are thick have none.
+// are a tenth of a millimetre wide. Plates that are thousands of times as wide
+// as they are thick have none.
 SolidSamples sample_casting(const csg::Scene& scene);
 
 ThicknessField measure_thickness(const SolidSamples& samples,

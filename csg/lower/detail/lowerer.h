@@ -248,8 +248,8 @@ class Lowerer {
   // Only the corners of the next leaf count: it is below a hull, without
   // siblings all the way. So its faces need not be closed.
   bool takes_corners_ = false;
-  bool is_rigid_ = false;  // below a node that keeps its size
-  bool is_apart_ = false;  // in coordinates that are scaled later
+  bool is_rigid_ = false;          // below a node that keeps its size
+  bool is_apart_ = false;          // in coordinates that are scaled later
   std::int32_t color_ = kNoColor;  // of the outermost color() above
   LeafStore leaves_;
   ProgramBuilder builder_;
