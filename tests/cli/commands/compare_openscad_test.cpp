@@ -52,6 +52,28 @@ TEST(CompareWithOpenscad, RendersTheDesignWithItsDefinitions) {
   }
 }
 
+// Written sprues and trees mean the same to openscad, and $rigid nothing.
+TEST(CompareWithOpenscad, AgreesOnWrittenSpruesAndTrees) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "$fn = 24; cube([8, 6, 3], $rigid = true); translate([20, 3, "
+               "1.5]) sphere(3); translate([0, 2, 1]) cube([20, 2, 1]);");
+  folder.write("b.scad", "cube([5, 4, 6]);");
+  ASSERT_EQ(
+      run(folder, {"sprue", "a.scad", "--sprue=disc", "-o", "sprued.scad"})
+          .status,
+      0);
+  ASSERT_EQ(run(folder, {"tree", "b.scad", "--copies", "3", "--flask", "80,100",
+                         "-o", "tree.scad"})
+                .status,
+            0);
+  for (const char* design : {"sprued.scad", "tree.scad"}) {
+    const auto result = run(folder, {"compare", design, "--against", "openscad",
+                                     "--tolerance", "1e-4", "--layer", "0.2"});
+    EXPECT_EQ(result.status, 0) << design << result.output << result.errors;
+  }
+}
+
 TEST(CompareWithOpenscad, ALimitEndsIt) {
   const TemporaryFolder folder;
   folder.write("a.scad",
