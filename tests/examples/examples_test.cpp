@@ -325,6 +325,29 @@ TEST(Brilliant, WeighsWhatItsDiameterSays) {
   }
 }
 
+TEST(CastingLibrary, SetsPiecesAroundATrunk) {
+  const support::TemporaryFolder folder;
+  const std::string use =
+      fmt::format("use <{}/lib/casting.scad>\n", LAMINA_EXAMPLES);
+  const Layers disc = slice_file(folder.write("disc.scad", use + "disc(10);"),
+                                 {"--layer", "0.1"});
+  // Of 64 corners, 1.5 mm thick.
+  const double area = 32 * 25 * std::sin(2 * std::numbers::pi / 64);
+  EXPECT_NEAR(volume(disc), 1.5 * area, 1e-3);
+  // Six balls 10 mm from the trunk's side, 7.07 mm above its root at 20 mm, and
+  // none on the trunk, which ends at 24 mm.
+  const Layers tree = slice_file(
+      folder.write("tree.scad", use + "tree(6) translate([0, 0, 10]) "
+                                      "sphere(1.5, $fn = 24);"),
+      {"--layer", "0.1"});
+  const double out = 2 + 10 * std::sqrt(0.5);
+  const std::size_t level = static_cast<std::size_t>(270.7);
+  ASSERT_GT(tree.size(), level);
+  EXPECT_EQ(support::count_loops(tree[level].contours), (LoopCounts{6, 0}));
+  EXPECT_TRUE(support::contains(tree[level].contours, Vec2(out, 0)));
+  EXPECT_FALSE(support::contains(tree[level].contours, Vec2(0, 0)));
+}
+
 TEST(Hoop, HasTwoPartsInItsLowestKnuckle) {
   // The front with the pin's hole, and the back.
   EXPECT_EQ(support::count_loops(slice_at("hoop", 0.6).contours),
