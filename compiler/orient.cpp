@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <mutex>
 #include <numbers>
@@ -157,8 +158,9 @@ class Search {
 
   OrientResult find() {
     OrientResult result;
-    const std::vector<JudgedDirection> judged = find_quickly();
+    std::vector<JudgedDirection> judged = find_quickly();
     result.judged = judged.size();
+    keep_fitting(judged);
     result.is_stopped = is_stopped_;
     result.has_visible =
         std::ranges::any_of(scene_.instances, &csg::Instance::is_visible);
@@ -175,6 +177,7 @@ class Search {
     std::ranges::copy_if(best, std::back_inserter(planned),
                          &JudgedDirection::is_planned);
     result.planned = planned.size();
+    keep_fitting(planned);
     if (!planned.empty()) {
       result.listed = front_of(planned, &print_figures);
     } else {
@@ -197,6 +200,18 @@ class Search {
     settings.finds_makers = false;
     settings.contour = slicer::ContourMode::kFaithful;
     return settings;
+  }
+
+  bool fits(const JudgedDirection& one) const {
+    return !machine_.printer ||
+           slicer::fits(*machine_.printer, Vec3(one.base, one.height));
+  }
+
+  // Leaves out what the printer does not build, where it builds some.
+  void keep_fitting(std::vector<JudgedDirection>& all) const {
+    const auto is_fit = [&](const JudgedDirection& one) { return fits(one); };
+    if (std::ranges::none_of(all, is_fit)) return;
+    std::erase_if(all, std::not_fn(is_fit));
   }
 
   // The first axis is z.
@@ -297,6 +312,7 @@ class Search {
     const csg::Scene scene = turned(one.up);
     const slicer::SliceReport report = slicer::slice(
         scene, slicer::plan_layers(scene, settings), settings, sink, unshown);
+    one.base = Vec2(report.box.size());
     one.height = report.box.size().z;
     for (const slicer::Finding& finding : report.print->findings) {
       if (finding.is_minor) continue;

@@ -29,6 +29,7 @@ namespace lamina::compiler {
 
 struct JudgedDirection {
   Vec3 up = Vec3(0, 0, 1);  // in the design, in thousandths; nearly of length 1
+  Vec2 base = Vec2(0);      // width and depth, without supports [mm]
   double height = 0;        // [mm]
   std::size_t layers = 0;
   std::size_t islands = 0;  // without supports
@@ -63,7 +64,8 @@ struct OrientOptions {
 struct OrientResult {
   std::optional<JudgedDirection> drawn;  // as the design has it; if judged
   // The best first: of those with supports, where supports were planned for
-  // some. Empty where the search was stopped before anything was judged.
+  // some; of those that fit the printer, where some do. Empty where the search
+  // was stopped before anything was judged.
   std::vector<JudgedDirection> listed;
   std::size_t judged = 0;
   std::size_t planned = 0;   // of these

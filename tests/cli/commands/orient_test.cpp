@@ -342,5 +342,30 @@ TEST(Orient, RefusesWhatItCannotMean) {
   EXPECT_EQ(status({"orient", "flat.scad"}, "is not a 3D object"), 1);
 }
 
+// A bar that is longer than the plate is wide does not lie as it is drawn.
+TEST(Orient, ListsWhatFitsThePrinter) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([130, 5, 5]);");
+  ASSERT_EQ(run(folder, {"orient", "a.scad", "-o", "free.json"}).status, 0);
+  ASSERT_EQ(run(folder, {"orient", "a.scad", "--printer", "prusa-sl1", "-o",
+                         "fit.json"})
+                .status,
+            0);
+  const json free = json::parse(read_file(folder.file("free.json")));
+  const json fit = json::parse(read_file(folder.file("fit.json")));
+  EXPECT_NEAR(free["listed"][0]["height_mm"].get<double>(), 5, 0.1);
+  ASSERT_FALSE(fit["listed"].empty());
+  for (const json& one : fit["listed"]) {
+    EXPECT_GT(one["height_mm"].get<double>(), 6);
+    const auto up = one["orient"].get<std::vector<double>>();
+    EXPECT_EQ(
+        run(folder,
+            {"a.scad", "--printer", "prusa-sl1", "--layer", "0.5", "--orient",
+             fmt::format("{},{},{}", up[0], up[1], up[2]), "-o", "a.sl1"})
+            .status,
+        0);
+  }
+}
+
 }  // namespace
 }  // namespace lamina::cli
