@@ -26,9 +26,9 @@ constexpr std::string_view kSprueHelp =
 
 Writes DESIGN with sprues as an OpenSCAD design: it includes or imports DESIGN
 and adds a line for each sprue, which you can edit, move or leave out. A sprue
-runs straight from a common root to the middle of the heaviest place, and is as
-wide there as that place is thick; where thin places cut other heavy ones off,
-these get sprues of their own. They come out where $visible is not set.
+runs straight from a common root to the heaviest place, and is 1.4 times as wide
+there as that place is thick; where thin places cut other heavy ones off, these
+get sprues of their own. They come out where $visible is not set.
 
 The written design is measured, too: what metal that enters by the root would
 still reach only through thinner places is listed.
