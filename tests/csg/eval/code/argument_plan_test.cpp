@@ -126,9 +126,10 @@ TEST(DynamicNames, GiveEachNameOneNumber) {
   EXPECT_EQ(names.find("$fn"), kFn);
   EXPECT_EQ(names.find("$support"), kSupport);
   EXPECT_EQ(names.find("$visible"), kVisible);
+  EXPECT_EQ(names.find("$rigid"), kRigid);
   EXPECT_EQ(names.find("$mine"), std::nullopt);
   const std::uint32_t mine = names.number_of("$mine");
-  EXPECT_EQ(mine, kVisible + 1);
+  EXPECT_EQ(mine, kRigid + 1);
   EXPECT_EQ(names.number_of("$mine"), mine);
   EXPECT_EQ(names.size(), mine + 1U);
 }
