@@ -46,7 +46,7 @@ Usage:
   lamina config [DESIGN]                  show your own defaults of options
   lamina preflight DESIGN --metal METAL   say what a casting house asks
   lamina sprue DESIGN -o NEW.scad         write it with sprues for casting
-  lamina tree DESIGN... -o TREE.csg       set pieces on a trunk, for one flask
+  lamina tree DESIGN... -o TREE.scad      set pieces on trunks, for flasks
   lamina printers                         list the printers that lamina knows
   lamina materials                        list its resins and metals
 
