@@ -43,6 +43,12 @@ double cone_volume(double length, double d1, double d2) {
   return std::numbers::pi / 12 * length * (d1 * d1 + d1 * d2 + d2 * d2);
 }
 
+// Where a root may be: beyond the piece in a direction.
+struct Side {
+  Vec3 direction = Vec3(0);   // unit length
+  double reach = -kInfinity;  // of the piece that way [mm]
+};
+
 // Directions that are spread over the sphere evenly: Vogel's spiral.
 std::vector<Vec3> directions() {
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -91,6 +97,7 @@ class SpruePlanner {
   std::optional<SpruePlan> plan() {
     const std::vector<Pool> pools = pools_to_feed();
     if (pools.empty()) return std::nullopt;
+    find_sides();
     if (auto plan = feed(pools)) return plan;
     // A smaller place that nobody sees does not feed, but is what goldsmiths
     // choose then.
@@ -102,6 +109,17 @@ class SpruePlanner {
   }
 
  private:
+  void find_sides() {
+    for (const Vec3 direction : directions()) sides_.push_back({direction});
+    for_each_index(sides_.size(), [&](std::size_t i) {
+      Side& side = sides_[i];
+      for (const SurfacePoint& point : samples_.points) {
+        side.reach =
+            std::max(side.reach, glm::dot(point.place, side.direction));
+      }
+    });
+  }
+
   // The thickest first, then by volume.
   std::vector<Pool> pools_to_feed() const {
     std::vector<Pool> pools = find_pools(samples_, balls_, field_, {});
@@ -268,12 +286,9 @@ class SpruePlanner {
     return choice;
   }
 
-  Choice choose_in(Vec3 direction) const {
-    double height = -kInfinity;
-    for (const SurfacePoint& point : samples_.points) {
-      height = std::max(height, glm::dot(point.place, direction));
-    }
-    height += sizes_.length;
+  Choice choose_at(const Side& side) const {
+    const Vec3 direction = side.direction;
+    const double height = side.reach + sizes_.length;
     std::vector<Vec3> middles;
     for (const Ball& end : targets_.front().ends) {
       middles.push_back(end.centre);
@@ -294,10 +309,9 @@ class SpruePlanner {
   }
 
   Choice choose() const {
-    const std::vector<Vec3> all = directions();
-    std::vector<Choice> choices(all.size());
-    for_each_index(all.size(),
-                   [&](std::size_t i) { choices[i] = choose_in(all[i]); });
+    std::vector<Choice> choices(sides_.size());
+    for_each_index(sides_.size(),
+                   [&](std::size_t i) { choices[i] = choose_at(sides_[i]); });
     return *std::ranges::min_element(choices, {}, &Choice::cost);
   }
 
@@ -319,6 +333,7 @@ class SpruePlanner {
   const ThicknessField& field_;
   const SprueSizes sizes_;
   const std::function<bool(std::uint32_t)>& is_visible_;
+  std::vector<Side> sides_;
   std::vector<Target> targets_;  // the thickest first, then by volume
   double root_diameter_ = 0;     // [mm]
   bool allows_seen_ = false;
