@@ -5,8 +5,6 @@
 #include <span>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
 #include "compiler/compile.h"
 #include "compiler/validate.h"
 #include "csg/lower/mesh_file_facts.h"
@@ -71,10 +69,6 @@ slicer::LayerFileFacts read_slc(const std::string& path, Looker& looker,
   return reader.facts();
 }
 
-// How much thinner than asked for a place is at least, and how fine the rays
-// are that find it: as preflight has it.
-constexpr double kLetPass = 0.95;
-constexpr double kPitchShare = 0.4;
 // Of more rays, some gigabytes of points would come [1].
 constexpr double kMostRays = 4e6;
 
@@ -86,7 +80,7 @@ bool is_in_layers(const slicer::ThinPlace& place, double width) {
 
 std::optional<std::vector<HiddenThin>> find_hidden(const csg::Scene& scene,
                                                    double width) {
-  const double pitch = kPitchShare * width;
+  const double pitch = slicer::kThinPitchShare * width;
   const Vec3 steps = scene.box.size() / pitch;
   if (steps.x * steps.y + steps.y * steps.z + steps.z * steps.x > kMostRays) {
     return std::nullopt;
@@ -95,11 +89,8 @@ std::optional<std::vector<HiddenThin>> find_hidden(const csg::Scene& scene,
   const slicer::BallFinder balls(samples.points);
   std::vector<HiddenThin> hidden;
   for (const auto& place : slicer::find_thin_places(samples, balls, width)) {
-    const bool is_small = place.shape == slicer::ThinShape::kWire
-                              ? glm::length(place.box.size()) < width
-                              : place.area < width * width;
-    if (place.shape == slicer::ThinShape::kEdge || is_small ||
-        place.width >= kLetPass * width || is_in_layers(place, width)) {
+    if (place.shape == slicer::ThinShape::kEdge ||
+        !slicer::is_too_thin(place, width) || is_in_layers(place, width)) {
       continue;
     }
     hidden.push_back(

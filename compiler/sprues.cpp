@@ -7,6 +7,7 @@
 #include "compiler/compile.h"
 #include "compiler/source_lines.h"
 #include "slicer/casting/sprue_text.h"
+#include "slicer/slice/scene_parts.h"
 #include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
@@ -38,11 +39,7 @@ void warn_of_seen(const slicer::SpruePlan& plan, Diagnostics& diagnostics) {
 }  // namespace
 
 bool is_sprue(const csg::Instance& instance) {
-  const csg::CallSite* call = instance.caller;
-  while (call != nullptr && call->name != slicer::kSpruesModule) {
-    call = call->caller;
-  }
-  return call != nullptr;
+  return slicer::is_made_by(instance, {&slicer::kSpruesModule, 1});
 }
 
 std::optional<slicer::SpruePlan> plan_sprues(const Request& request,

@@ -28,14 +28,9 @@
 namespace lamina::compiler {
 namespace {
 
-// Thin places are looked for with rays whose pitch is this share of the least
-// thickness that is asked for; engravings with rays of their own, by the least
-// depth.
-constexpr double kPitchShare = 0.4;
+// Engravings are looked for with rays of their own, whose pitch is this share
+// of the least depth.
 constexpr double kDepthPitchShare = 0.2;
-// What is thinner by less than this share passes: facets of a round wire are
-// nearer to its middle than its nominal radius is.
-constexpr double kLetPass = 0.95;
 
 // Fingers fit into holes of these diameters [mm], from the smallest child's
 // ring to the largest size that is sold.
@@ -128,8 +123,8 @@ class Inspector {
 
   void measure() {
     const slicer::CastingLimits& limits = *found_.metal.casting;
-    found_.pitch =
-        kPitchShare * std::min({limits.wall, limits.wire, limits.gap});
+    found_.pitch = slicer::kThinPitchShare *
+                   std::min({limits.wall, limits.wire, limits.gap});
     const slicer::SolidSamples samples =
         slicer::sample_solid(scene_, found_.pitch);
     const slicer::BallFinder balls(samples.points);
@@ -151,11 +146,7 @@ class Inspector {
       const double least = place.is_gap ? limits.gap
                            : is_wire    ? limits.wire
                                         : limits.wall;
-      if (place.width >= kLetPass * least) continue;
-      if (is_wire ? glm::length(place.box.size()) < least
-                  : place.area < least * least) {
-        continue;
-      }
+      if (!slicer::is_too_thin(place, least)) continue;
       if (place.shape == slicer::ThinShape::kEdge) {
         if (!place.is_gap) ++found_.edges;
         continue;
@@ -173,7 +164,7 @@ class Inspector {
     const slicer::BallFinder balls(samples.points);
     for (const auto& engraving : slicer::find_engravings(
              samples, balls, {kWidestEngraving * least, least})) {
-      if (engraving.depth >= kLetPass * least) continue;
+      if (engraving.depth >= slicer::kLetPass * least) continue;
       if (engraving.area < limits.gap * limits.gap) continue;
       found_.too_shallow.push_back(
           {engraving, least,

@@ -111,18 +111,6 @@ class BledScene {
   csg::Scene scene_;
 };
 
-// None of a scene in which nothing is left.
-std::vector<Layer> slice_all(const csg::Scene& scene, const Settings& asked) {
-  Settings settings;
-  settings.layer_thickness = asked.layer_thickness;
-  settings.threads = asked.threads;
-  try {
-    return all_layers(scene, settings);
-  } catch (const GeometryError&) {
-    return {};
-  }
-}
-
 Region subtract(const Region& region, const Region& other) {
   if (region.is_empty() || other.is_empty()) return region;
   const Region both[] = {region, other};
@@ -261,8 +249,8 @@ BleedReport compensate_bleed(csg::Scene& scene, double depth,
       BledScene(BooleanOp::kIntersection, part, scene, depth, bed).take();
   // Its layers are those of the whole.
   left_out.box = scene.box;
-  const std::vector<Layer> whole = slice_all(scene, settings);
-  const LossFinder finder(whole, slice_all(left_out, settings), depth);
+  const std::vector<Layer> whole = layers_or_none(scene, settings);
+  const LossFinder finder(whole, layers_or_none(left_out, settings), depth);
   report.walls = finder.find_walls();
   report.gaps = finder.find_gaps(bed + depth);
   warn(report.walls, "walls lower than {:g} mm vanish", depth, diagnostics);

@@ -41,18 +41,6 @@ constexpr int kRodFacets = 32;
 // is a mistake.
 constexpr double kFarDrain = 5;
 
-// None of a scene in which nothing is left.
-std::vector<Layer> slice_all(const csg::Scene& scene, const Settings& asked) {
-  Settings settings;
-  settings.layer_thickness = asked.layer_thickness;
-  settings.threads = asked.threads;
-  try {
-    return all_layers(scene, settings);
-  } catch (const GeometryError&) {
-    return {};
-  }
-}
-
 double volume_of(const std::vector<Layer>& layers) {
   double volume = 0;
   for (const Layer& layer : layers) {
@@ -362,11 +350,12 @@ HollowReport hollow_out(csg::Scene& scene, const HollowSizes& sizes,
   HollowReport report;
   const std::optional<csg::Scene> supports = supports_of(scene);
   const csg::Scene part = supports ? without_supports(scene) : scene;
-  const std::vector<Layer> layers = slice_all(part, settings);
+  const std::vector<Layer> layers = layers_or_none(part, settings);
   if (layers.empty()) return report;
   report.solid_volume = volume_of(layers);
   csg::Leaf shell = csg::make_shell(part, sizes.wall + sizes.closing);
-  std::vector<Layer> left_out = slice_all(cavities_of(part, shell), settings);
+  std::vector<Layer> left_out =
+      layers_or_none(cavities_of(part, shell), settings);
   if (sizes.closing > 0) {
     left_out = detail::dilate(left_out, layers, sizes.closing);
   }

@@ -31,13 +31,17 @@ std::optional<csg::Scene> leaves_of(
   return part;
 }
 
-bool is_support(const csg::Scene& scene, const csg::Instance& instance) {
-  bool is_made = false;
-  for (const csg::CallSite* call = instance.caller; call != nullptr && !is_made;
-       call = call->caller) {
-    is_made = std::ranges::count(kSupportModules, call->name) > 0;
+bool is_made_by(const csg::Instance& instance,
+                std::span<const std::string_view> modules) {
+  const csg::CallSite* call = instance.caller;
+  while (call != nullptr && std::ranges::count(modules, call->name) == 0) {
+    call = call->caller;
   }
-  if (!is_made) return false;
+  return call != nullptr;
+}
+
+bool is_support(const csg::Scene& scene, const csg::Instance& instance) {
+  if (!is_made_by(instance, kSupportModules)) return false;
   for (std::uint32_t node = instance.parent;;
        node = scene.program[node].parent) {
     if (scene.program[node].op != plane::BooleanOp::kUnion) return false;

@@ -7,6 +7,8 @@
 
 #include <functional>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "csg/scene.h"
@@ -18,6 +20,10 @@ namespace lamina::slicer {
 std::optional<csg::Scene> leaves_of(
     const csg::Scene& scene,
     const std::function<bool(const csg::Instance&)>& is_wanted);
+
+// Whether one of these modules of the design made the leaf.
+bool is_made_by(const csg::Instance& instance,
+                std::span<const std::string_view> modules);
 
 bool is_support(const csg::Scene& scene, const csg::Instance& instance);
 

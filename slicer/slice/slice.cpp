@@ -243,6 +243,18 @@ std::vector<Layer> all_layers(const csg::Scene& scene,
   return std::move(list.layers);
 }
 
+std::vector<Layer> layers_or_none(const csg::Scene& scene,
+                                  const Settings& asked) {
+  Settings settings;
+  settings.layer_thickness = asked.layer_thickness;
+  settings.threads = asked.threads;
+  try {
+    return all_layers(scene, settings);
+  } catch (const GeometryError&) {
+    return {};
+  }
+}
+
 SliceReport slice_outline(const plane::Region& outline,
                           const Settings& settings, LayerSink& sink,
                           Diagnostics& diagnostics) {

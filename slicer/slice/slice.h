@@ -78,6 +78,13 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
 std::vector<Layer> all_layers(const csg::Scene& scene,
                               const Settings& settings);
 
+// The same in layers of one thickness, with all else as usual; none of a scene
+// in which nothing is left.
+//
+// asked  its thickness of layers and its threads
+std::vector<Layer> layers_or_none(const csg::Scene& scene,
+                                  const Settings& asked);
+
 // The one layer of a 2D design, at height 0, with all its vertices. It has no
 // foot.
 SliceReport slice_outline(const plane::Region& outline,

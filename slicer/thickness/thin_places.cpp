@@ -231,6 +231,13 @@ class ThinSide {
 
 }  // namespace
 
+bool is_too_thin(const ThinPlace& place, double least) {
+  const bool is_large = place.shape == ThinShape::kWire
+                            ? glm::length(place.box.size()) >= least
+                            : place.area >= least * least;
+  return is_large && place.width < kLetPass * least;
+}
+
 std::vector<ThinPlace> find_thin_places(const SolidSamples& samples,
                                         const BallFinder& balls, double width) {
   std::vector<ThinPlace> places;

@@ -34,6 +34,19 @@ struct ThinPlace {
   std::array<std::uint32_t, 2> instances = {0, 0};
 };
 
+// What is thinner than it should be by less than this share passes: facets of a
+// round wire are nearer to its middle than its nominal radius is.
+inline constexpr double kLetPass = 0.95;
+
+// Whether a place is too thin where it should be so thick [mm], and large
+// enough to matter: a wire as long, or a side as large as a square of that.
+// Crevices where surfaces meet are smaller.
+bool is_too_thin(const ThinPlace& place, double least);
+
+// The pitch of samples that show what is thinner than a width, as a share of
+// it.
+inline constexpr double kThinPitchShare = 0.4;
+
 // Returns places whose balls hang together, the thinnest first.
 //
 // width  [mm]; should be two pitches of the samples or more: finer gaps may be

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/lamina.h"
+#include "tests/cli/run_report.h"
 #include "tests/support/text.h"
 
 namespace lamina::cli {
@@ -26,15 +27,6 @@ constexpr const char* kDumbbell =
 
 bool exists(const TemporaryFolder& folder, const std::string& name) {
   return std::filesystem::exists(folder.file(name));
-}
-
-json report_of(const TemporaryFolder& folder, std::vector<std::string> words) {
-  for (const char* word : {"-o", "o.slc", "--report", "o.json"}) {
-    words.emplace_back(word);
-  }
-  const auto result = run(folder, words);
-  EXPECT_EQ(result.status, 0) << result.errors;
-  return json::parse(read_file(folder.file("o.json")));
 }
 
 TEST(Sprue, WritesADesignThatIsFed) {

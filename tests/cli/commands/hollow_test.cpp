@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/lamina.h"
+#include "tests/cli/run_report.h"
 #include "tests/support/text.h"
 
 namespace lamina::cli {
@@ -44,10 +45,8 @@ class Hollow : public ::testing::Test {
 
   // The report of that.
   json report_of(std::vector<std::string> options) const {
-    options.insert(options.end(), {"-q", "--report", "r.json"});
-    const auto made = slice(std::move(options));
-    EXPECT_EQ(made.status, 0) << made.errors;
-    return json::parse(read_file(folder_.file("r.json")));
+    options.insert(options.begin(), {"a.scad", "-o", "a.slc"});
+    return cli::report_of(folder_, std::move(options));
   }
 
   TemporaryFolder folder_;

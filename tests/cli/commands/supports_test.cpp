@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/lamina.h"
+#include "tests/cli/run_report.h"
 #include "tests/support/text.h"
 
 namespace lamina::cli {
@@ -19,16 +20,6 @@ using support::TemporaryFolder;
 
 const char* const kTable =
     "translate([0, 0, 8])\n  cube([14, 14, 2]);\ncube([3, 3, 9]);\n";
-
-// Slices a design and returns the run's report.
-json report_of(const TemporaryFolder& folder,
-               std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(),
-                   {"-q", "-o", "x.slc", "--report", "x.json"});
-  const auto made = run(folder, arguments);
-  EXPECT_EQ(made.status, 0) << made.errors;
-  return json::parse(read_file(folder.file("x.json")));
-}
 
 TEST(SupportsCommand, WritesADesignThatNamesTheLinesItHolds) {
   const TemporaryFolder folder;
@@ -99,7 +90,7 @@ TEST(SupportLines, DecideWhatIsHeld) {
   EXPECT_TRUE(
       only(places_of(folder, {"--no-support-on", "table.scad:3"}), true));
   EXPECT_TRUE(places_of(folder, {"--no-support-on", "lib.scad:1"}).empty());
-  const json report = json::parse(read_file(folder.file("x.json")));
+  const json report = json::parse(read_file(folder.file("report.json")));
   EXPECT_EQ(report["supports"]["count"], 0);
   EXPECT_EQ(report["supports"]["unwanted"], 2);
 }
