@@ -1,0 +1,134 @@
+#pragma once
+// A server for HTTP/1.1 on this machine alone, with a limit for everything that
+// a stranger can send.
+//
+// Boost.Beast reads and writes; it stands behind a module (base/file/module.h),
+// so that no other run pays for it. One thread does all: it calls the handler
+// for each request, and what else it was asked to call.
+//
+// What is refused before the handler sees it, and by which status:
+//
+//   400  what is not HTTP/1.1, two Content-Lengths, a body of GET
+//   403  a Host that is not this server's (DNS rebinding), an Origin that is not
+//        (cross-site)
+//   405  methods other than GET, HEAD and POST
+//   408  headers or a body that take longer than their limit
+//   413  a body longer than the limit
+//   414  a request line longer than the limit
+//   431  headers longer than the limit, or more of them
+//   501  Transfer-Encoding
+//
+// After a refusal the connection is closed. More connections than the limit are
+// closed as they come.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "base/file/module.h"
+
+namespace lamina::http {
+
+struct Limits {
+  std::size_t line_bytes = 8 << 10;     // of the request line
+  std::size_t header_bytes = 16 << 10;  // with the request line
+  std::size_t headers = 64;
+  std::size_t body_bytes = 64 << 10;
+  std::chrono::milliseconds header_time{5000};  // from the connection, or from
+                                                // the answer before, if it has
+                                                // sent a byte since
+  std::chrono::milliseconds body_time{5000};
+  std::chrono::milliseconds idle_time{60000};  // between two requests
+  std::size_t connections = 64;
+  // Of one answer that its reader does not take; then it is cut off.
+  std::size_t queued_bytes = 32 << 20;
+};
+
+struct Request {
+  std::string method;  // "GET" also for HEAD, "POST"
+  std::string path;    // as it came, without the query: "/file/5"
+  std::string query;   // behind the '?', as it came
+  std::string content_type;  // without parameters, lower case
+  std::string body;
+  std::vector<std::pair<std::string, std::string>> cookies;
+
+  // The value of a cookie; empty if it is not there.
+  std::string_view cookie(std::string_view name) const {
+    for (const auto& [known, value] : cookies) {
+      if (known == name) return value;
+    }
+    return {};
+  }
+};
+
+struct Response {
+  unsigned status = 200;
+  std::string type = "text/plain; charset=utf-8";
+  std::string body;
+  // Sent instead of the body, as it is at that time, and may be of any size.
+  std::string file;
+  // Beside those that every answer has: security policy, no caching, length.
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+
+// The answer to one request. It may come later. One that is given up without an
+// answer is answered by 500.
+class Reply {
+ public:
+  virtual ~Reply() = default;
+
+  // The whole answer. To be called once, or begin() instead.
+  virtual void send(Response response) = 0;
+
+  // Begins an answer that ends with the connection; it has no body yet.
+  virtual void begin(Response response) = 0;
+  // Adds to an answer that has begun. The writing goes on by itself; where
+  // nobody takes it, the connection is closed (Limits::queued_bytes).
+  virtual void write(std::string bytes) = 0;
+  // Whether the connection still lives.
+  virtual bool is_open() const = 0;
+  // Calls once the connection has ended, however it did; at once if it has.
+  virtual void on_close(std::function<void()> call) = 0;
+};
+
+using Handler =
+    std::function<void(const Request& request, std::shared_ptr<Reply> reply)>;
+
+class Server {
+ public:
+  virtual ~Server() = default;
+
+  // Listens on the loopback address 127.0.0.1. Returns the port, or 0 with errno
+  // where that is not possible.
+  //
+  // port  0: any that is free
+  virtual std::uint16_t listen(std::uint16_t port) = 0;
+
+  // Calls whenever a descriptor can be read, or has come to its end, until
+  // forget(). The descriptor stays the caller's, who closes it after forget().
+  virtual void on_readable(int descriptor, std::function<void()> call) = 0;
+  virtual void forget(int descriptor) = 0;
+
+  // Calls once, after so long.
+  virtual void after(std::chrono::milliseconds time,
+                     std::function<void()> call) = 0;
+
+  // Answers until stop(), which a call from within may make. What the handler
+  // and other calls throw ends it, and is thrown.
+  virtual void run(const Handler& handler) = 0;
+  virtual void stop() = 0;
+};
+
+// Opens the module. Throws GeometryError where it is missing.
+std::unique_ptr<Server> make_server(const Limits& limits,
+                                    const std::vector<std::string>& folders,
+                                    Diagnostics& diagnostics);
+
+}  // namespace lamina::http
