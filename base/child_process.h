@@ -26,6 +26,7 @@ class ChildOutput {
   explicit ChildOutput(int pipe) : pipe_(pipe) {}
   // Ends the child where nobody reads.
   void write(const void* bytes, std::size_t size) const;
+  int descriptor() const { return pipe_; }
 
  private:
   int pipe_;
@@ -50,6 +51,9 @@ class ChildProcess {
 
   // Reads so many bytes of its output; false if it ended before.
   bool read(void* bytes, std::size_t size) const;
+
+  // Can be read, or is at its end, when the child has written or ended.
+  int descriptor() const { return pipe_; }
 
   // How long it may work [s of processor time].
   unsigned most_seconds() const { return most_seconds_; }

@@ -89,6 +89,7 @@ struct Compilation {
   Diagnostics diagnostics;
   Loader loader;
   Readers readers;
+  bool is_read = false;  // read_design() has made `design`
   // A pass failed and has reported why. The next ones may still run, for what
   // they report; no layers can be made.
   bool has_failed = false;

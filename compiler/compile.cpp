@@ -101,10 +101,8 @@ void load_design(Compilation& c) {
   add_sprues(c);
   choose_direction(c);
   add_supports(c);
-  c.on_pass("reading");
-  c.design = timed(c.report.load_seconds, [&] {
-    return load(c.request.design, c.loader, c.diagnostics);
-  });
+  if (!c.is_read) read_design(c);
+  set_parameters(c.request.design, c.file_access(), c.design, c.diagnostics);
   if (!c.design.has_parameters) c.has_failed = true;
 }
 
@@ -266,6 +264,14 @@ bool ends_on_findings(Compilation& c) {
   c.has_failed = true;
   c.diagnostics.error({}, fmt::format("not written: {} (--fail-on)", counts));
   return true;
+}
+
+void read_design(Compilation& c) {
+  c.on_pass("reading");
+  c.design = timed(c.report.load_seconds, [&] {
+    return read(c.request.design, c.loader, c.diagnostics);
+  });
+  c.is_read = true;
 }
 
 bool make_tree(Compilation& c) {

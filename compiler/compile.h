@@ -18,6 +18,11 @@ namespace lamina::compiler {
 // false where a pass failed.
 bool compile(Compilation& compilation);
 
+// The pass from the text to the parsed design, for a compilation that is copied
+// before it goes on: the passes below then go on from here. What changes the
+// text of the design, supports above all, cannot be asked for any more.
+void read_design(Compilation& compilation);
+
 // The passes from the text to the tree. Returns false where one failed.
 bool make_tree(Compilation& compilation);
 

@@ -203,16 +203,20 @@ Affine turn_of(const GeometryRequest& request) {
   return turn * Mat4(slicer::turn_upwards(*request.up));
 }
 
-LoadedDesign load(const DesignRequest& request, Loader& loader,
+LoadedDesign read(const DesignRequest& request, Loader& loader,
                   Diagnostics& diagnostics) {
   LoadedDesign design;
   loader.append(request.appended);
   design.program = read_design(request, loader);
   design.language = choose_language(request, loader, diagnostics);
   check_definitions(design.program, loader, diagnostics);
-  design.has_parameters =
-      apply_parameters(request, loader.file_access(), design, diagnostics);
   return design;
+}
+
+void set_parameters(const DesignRequest& request, const FileAccess& access,
+                    LoadedDesign& design, Diagnostics& diagnostics) {
+  design.has_parameters =
+      apply_parameters(request, access, design, diagnostics);
 }
 
 namespace {

@@ -37,10 +37,14 @@ struct LoadedDesign {
   bool has_parameters = true;
 };
 
-// Reads and parses the design and the files that it names, decides in which
-// language they are written, and sets the parameters of the design's set.
-LoadedDesign load(const DesignRequest& request, Loader& loader,
+// Reads and parses the design and the files that it names, and decides in which
+// language they are written.
+LoadedDesign read(const DesignRequest& request, Loader& loader,
                   Diagnostics& diagnostics);
+
+// Gives the parameters of the design the values of the request's set.
+void set_parameters(const DesignRequest& request, const FileAccess& access,
+                    LoadedDesign& design, Diagnostics& diagnostics);
 
 // How the design is turned before it is sliced; the same for --axis auto, which
 // turns the solid itself.

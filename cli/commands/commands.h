@@ -48,6 +48,7 @@ std::unique_ptr<Command> make_plate_command();
 std::unique_ptr<Command> make_preflight_command();
 std::unique_ptr<Command> make_printers_command();
 std::unique_ptr<Command> make_sprue_command();
+std::unique_ptr<Command> make_studio_command();
 std::unique_ptr<Command> make_supports_command();
 std::unique_ptr<Command> make_tree_command();
 std::unique_ptr<Command> make_view_command();
@@ -71,6 +72,7 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"preflight", make_preflight_command},
     NamedCommand{"printers", make_printers_command},
     NamedCommand{"sprue", make_sprue_command},
+    NamedCommand{"studio", make_studio_command},
     NamedCommand{"supports", make_supports_command},
     NamedCommand{"tree", make_tree_command},
     NamedCommand{"view", make_view_command}};

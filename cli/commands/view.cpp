@@ -17,9 +17,8 @@
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
 #include "compiler/look_at.h"
-#include "compiler/machine.h"
 #include "compiler/stage_text.h"
-#include "slicer/machine/estimate.h"
+#include "compiler/tasks/viewer_options.h"
 #include "slicer/picture/image.h"
 #include "slicer/picture/layer_picture.h"
 #include "slicer/picture/sheet_picture.h"
@@ -210,42 +209,11 @@ slicer::Image draw_picture(const std::vector<slicer::Layer>& layers,
   return draw_sheet(layers, title, sheet);
 }
 
-// What the print takes, in words; empty where nothing is asked for.
-std::string estimate_of(const compiler::Compilation& compilation,
-                        const slicer::Inspection& found) {
-  const compiler::Request& request = compilation.request;
-  const slicer::Machine machine =
-      compiler::choose_machine(request.output, compilation.file_access());
-  return slicer::estimate_text(
-      machine,
-      slicer::estimate_print(
-          machine, request.job.layer_thickness, found.layers.size(),
-          found.volume, slicer::part_volume(found.volume, found.supports)));
-}
-
-std::vector<std::string> texts_from(
-    const std::string& folder, const std::vector<compiler::SourceLines>& all) {
-  std::vector<std::string> texts;
-  for (const compiler::SourceLines& lines : all) {
-    texts.push_back(compiler::text_from(folder, lines));
-  }
-  return texts;
-}
-
 void write_page(const compiler::Compilation& compilation,
                 const compiler::Inspection& inspection,
-                const std::string& title, double min_feature) {
-  const slicer::Inspection& found = inspection.found;
-  slicer::ViewerOptions page;
-  page.title = title;
-  page.estimate = estimate_of(compilation, found);
-  page.min_feature = min_feature;
-  page.features = found.features;
-  const std::string folder = folder_of(compilation.request.design.path);
-  page.source_lines = texts_from(folder, inspection.lines.features);
-  page.print = found.print;
-  page.finding_source_lines = texts_from(folder, inspection.lines.findings);
-  if (found.supports) page.supports = size_text(*found.supports);
+                const std::string& title) {
+  const slicer::ViewerOptions page =
+      compiler::viewer_options(compilation, inspection, title);
   compiler::write_file(compilation.request.output.path,
                        viewer_page(inspection.layers, page),
                        compilation.temporary_files);
@@ -271,7 +239,7 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   const std::string title =
       std::filesystem::path(request.design.path).filename();
   if (draws_page) {
-    write_page(compilation, *inspection, title, options.layer.min_feature);
+    write_page(compilation, *inspection, title);
     return kDone;
   }
   const slicer::Image picture = draw_picture(layers, title, options);

@@ -41,6 +41,8 @@ class ProcessWatch {
   ProcessWatch(const ProcessWatch&) = delete;
   ProcessWatch& operator=(const ProcessWatch&) = delete;
 
+  const ProcessLimits& limits() const { return limits_; }
+
   // From now on each part of the work has the whole time for itself, and what
   // stands between parts is not timed.
   void time_parts();

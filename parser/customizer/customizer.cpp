@@ -4,6 +4,7 @@
 #include <string_view>
 #include <variant>
 
+#include "base/text.h"
 #include "parser/ast_printer.h"
 #include "parser/customizer/detail/customizer_value.h"
 #include "parser/tree_facts.h"
@@ -145,6 +146,20 @@ ParameterComment Customizer::comment_of(
   result.has_group = group != nullptr;
   if (result.has_group) result.group = *group;
   return result;
+}
+
+std::map<std::string, std::string> widgets_of(const ast::Program& program) {
+  const Source& source = *program.source;
+  std::map<std::string, std::string> widgets;
+  for (const ast::Statement* statement : program.statements) {
+    const auto* variable = std::get_if<ast::Assignment>(&statement->node);
+    if (variable == nullptr || statement->range.source != &source) continue;
+    const std::uint32_t line = source.openscad_line(statement->range.begin);
+    const std::string_view word = trim(find_comment(source.line_text(line)));
+    if (word != "color" && word != "font" && word != "hidden") continue;
+    widgets[std::string(variable->name)] = word;
+  }
+  return widgets;
 }
 
 std::vector<CustomizerEntry> list_parameters(const ast::Program& program) {

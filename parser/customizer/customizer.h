@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -97,6 +98,10 @@ struct CustomizerEntry {
 // In the order of the design. A variable that is set more than once stands in
 // its first place and has its last value.
 std::vector<CustomizerEntry> list_parameters(const ast::Program& program);
+
+// By the name of a parameter, a comment behind it that is one word of
+// MakerWorld's customizer: `// color`, `// font`, or `// hidden`.
+std::map<std::string, std::string> widgets_of(const ast::Program& program);
 
 // All parameters with their rules as OpenSCAD 2026 exports them: what `-o
 // x.param` writes.

@@ -1,0 +1,216 @@
+#include "serve/studio/events.h"
+
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/fingerprint.h"
+#include "base/paths.h"
+#include "base/version.h"
+#include "compiler/tasks/viewer_options.h"
+#include "parser/customizer/customizer.h"
+#include "slicer/formats/output_format.h"
+#include "slicer/machine/estimate.h"
+
+namespace lamina::studio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json event(const char* kind, std::uint64_t number) {
+  return {{"kind", kind}, {"number", number}};
+}
+
+// The parameters as `-o x.param` writes them, with their widgets.
+Json parameters_of(const ast::Program& program) {
+  Json file = Json::parse(parameters_json(program, ""));
+  Json parameters = Json::array();
+  if (file.contains("parameters")) parameters = std::move(file["parameters"]);
+  const std::map<std::string, std::string> widgets = widgets_of(program);
+  for (Json& parameter : parameters) {
+    const auto widget = widgets.find(parameter["name"].get<std::string>());
+    if (widget != widgets.end()) parameter["widget"] = widget->second;
+  }
+  return parameters;
+}
+
+// The sets of the file beside the design.
+Json sets_beside(const std::string& path, const FileAccess& access,
+                 Diagnostics& diagnostics) {
+  Json sets = Json::array();
+  const std::string file = sets_file(path);
+  if (!access.is_file(file)) return sets;
+  try {
+    const ParameterSets all = ParameterSets::read(file, access);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Json values = Json::object();
+      for (const ParameterValue& value : all.values_of(i)) {
+        if (value.is_single) values[value.name] = value.text;
+      }
+      sets.push_back({{"name", all.name_of(i)}, {"values", std::move(values)}});
+    }
+  } catch (const FileError& error) {
+    diagnostics.own_warning({}, error.diagnostic().message);
+  }
+  return sets;
+}
+
+const char* name_of(Severity severity) {
+  switch (severity) {
+    case Severity::kError:
+      return "error";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kDeprecated:
+      return "deprecated";
+    case Severity::kEcho:
+      return "echo";
+    case Severity::kPlain:
+      break;
+  }
+  return "note";
+}
+
+Json message_json(const Diagnostic& message, std::string text,
+                  const std::string& folder) {
+  Json json = {{"severity", name_of(message.severity)},
+               {"message", message.message},
+               {"text", std::move(text)}};
+  if (message.range.is_written()) {
+    const Source& source = *message.range.source;
+    const LineColumn place = source.line_column(message.range.begin);
+    json["file"] = relative_path(absolute_path(source.path()), folder);
+    json["line"] = place.line;
+    json["column"] = place.column;
+  }
+  return json;
+}
+
+Json names_json(const std::vector<std::string>& names) { return Json(names); }
+
+}  // namespace
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string sets_file(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".json");
+}
+
+Form form_of(const ast::Program& program, const std::string& path,
+             const FileAccess& access, Diagnostics& diagnostics) {
+  Form form;
+  form.parameters = text_of(parameters_of(program));
+  form.sets = text_of(sets_beside(path, access, diagnostics));
+  form.key = digest(form.parameters + form.sets);
+  return form;
+}
+
+std::string form_event(std::uint64_t number, const Form& form) {
+  return fmt::format(
+      R"({{"kind":"form","number":{},"key":"{}","parameters":{},"sets":{}}})",
+      number, form.key, form.parameters, form.sets);
+}
+
+std::string messages_json(const std::vector<Diagnostic>& messages,
+                          const std::string& folder) {
+  // A message that comes again is shown once.
+  Json list = Json::array();
+  std::map<std::string, std::size_t> known;
+  for (const Diagnostic& message : messages) {
+    std::string text = caret_text(message);
+    if (text.empty()) continue;
+    const auto [at, is_new] = known.try_emplace(text, list.size());
+    if (is_new) {
+      list.push_back(message_json(message, std::move(text), folder));
+    } else {
+      Json& count = list[at->second]["count"];
+      count = count.is_null() ? 2 : count.get<int>() + 1;
+    }
+  }
+  return text_of(list);
+}
+
+std::string messages_event(std::uint64_t number, const std::string& messages) {
+  return fmt::format(R"({{"kind":"messages","number":{},"messages":{}}})",
+                     number, messages);
+}
+
+std::string report_event(std::uint64_t number,
+                         const compiler::Compilation& compilation,
+                         const slicer::Inspection& found) {
+  const slicer::PrintEstimate estimate =
+      compiler::estimate_of(compilation, found);
+  const slicer::Machine& machine = compilation.report.machine;
+  const double cast = slicer::part_volume(found.volume, found.supports);
+  Json metals = Json::array();
+  for (const slicer::Material& material : slicer::known_materials()) {
+    if (!material.is_metal()) continue;
+    metals.push_back({{"name", material.name},
+                      {"title", material.title},
+                      {"grams", material.weight(cast)}});
+  }
+  const Vec3 size = found.box.size();
+  Json json = event("report", number);
+  json["size"] = {size.x, size.y, size.z};
+  json["volume"] = cast;
+  json["printed"] = found.volume;
+  json["estimate"] = slicer::estimate_text(machine, estimate);
+  json["seconds"] = estimate.seconds;
+  json["price"] = estimate.price + estimate.metal_price;
+  json["metals"] = std::move(metals);
+  return text_of(json);
+}
+
+std::string hello_event(const std::string& client, const Names& names,
+                        const std::string& design, const JobChoice& job) {
+  Json formats = Json::array();
+  for (const std::string& extension : names.formats) {
+    formats.push_back({{"name", extension}, {"title", "." + extension}});
+  }
+  return text_of({{"kind", "hello"},
+                  {"client", client},
+                  {"version", version()},
+                  {"designs", names_json(names.designs)},
+                  {"design", design},
+                  {"settings",
+                   {{"layer", job.layer_thickness},
+                    {"minFeature", job.min_feature},
+                    {"supports", job.has_supports},
+                    {"printer", job.printer},
+                    {"material", job.material},
+                    {"metal", job.metal}}},
+                  {"printers", names_json(names.printers)},
+                  {"materials", names_json(names.materials)},
+                  {"metals", names_json(names.metals)},
+                  {"formats", std::move(formats)}});
+}
+
+std::string name_in_answer(const std::string& json) {
+  const Json answer = Json::parse(json, nullptr, false);
+  return answer.is_object() ? answer.value("name", "") : "";
+}
+
+std::string file_answer(std::uint64_t number, const std::string& name) {
+  return text_of({{"file", fmt::format("/file/{}", number)}, {"name", name}});
+}
+
+std::string changed_event(const std::vector<std::string>& files) {
+  return text_of({{"kind", "changed"}, {"files", names_json(files)}});
+}
+
+std::string end_event(std::uint64_t number, bool is_well,
+                      double seconds_to_layer, double seconds) {
+  Json json = event("end", number);
+  json["isWell"] = is_well;
+  Json& times = json["milliseconds"] = Json::object();
+  if (seconds_to_layer >= 0) times["layer"] = seconds_to_layer * 1e3;
+  times["all"] = seconds * 1e3;
+  return text_of(json);
+}
+
+}  // namespace lamina::studio

@@ -1,0 +1,63 @@
+#pragma once
+// The events of docs/studio.md as JSON.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "compiler/compilation.h"
+#include "parser/ast.h"
+#include "serve/studio/choice.h"
+#include "slicer/check/defects/inspect.h"
+
+namespace lamina::studio {
+
+// In one line. Bytes that are not UTF-8 are replaced: names of files and
+// messages can hold any.
+std::string text_of(const nlohmann::ordered_json& json);
+
+// The parameters of a design and the sets beside it, as a page shows them.
+struct Form {
+  std::string key;         // equal forms have equal keys
+  std::string parameters;  // JSON
+  std::string sets;        // JSON
+};
+
+// The file of sets that OpenSCAD keeps beside a design: ring.json beside
+// ring.scad.
+std::string sets_file(const std::string& path);
+
+// Reads the customizer's comments, and the file of sets if there is one. Warns
+// where it cannot be read.
+Form form_of(const ast::Program& program, const std::string& path,
+             const FileAccess& access, Diagnostics& diagnostics);
+
+std::string form_event(std::uint64_t number, const Form& form);
+
+// All messages, the list of a page: with their place, and as a terminal shows
+// them. Files are named from `folder`.
+std::string messages_json(const std::vector<Diagnostic>& messages,
+                          const std::string& folder);
+std::string messages_event(std::uint64_t number, const std::string& messages);
+
+// What the print weighs, in each metal that lamina knows, and what it takes.
+std::string report_event(std::uint64_t number,
+                         const compiler::Compilation& compilation,
+                         const slicer::Inspection& found);
+
+std::string hello_event(const std::string& client, const Names& names,
+                        const std::string& design, const JobChoice& job);
+
+// The member "name" of a run's answer, and the page's answer to POST /output.
+std::string name_in_answer(const std::string& json);
+std::string file_answer(std::uint64_t number, const std::string& name);
+
+std::string changed_event(const std::vector<std::string>& files);
+
+// seconds_to_layer  from the beginning of the run; less than 0: none came
+std::string end_event(std::uint64_t number, bool is_well,
+                      double seconds_to_layer, double seconds);
+
+}  // namespace lamina::studio

@@ -1,0 +1,27 @@
+#include "serve/studio/page.h"
+
+#include "serve/studio/detail/page_texts.h"
+#include "slicer/picture/viewer_template.h"
+
+namespace lamina::studio {
+
+std::string page_html() {
+  return slicer::viewer_html(
+      {.title = "lamina studio",
+       .head = R"(<link rel="stylesheet" href="/studio.css">)",
+       .tools = std::string(kPageTools),
+       .panel = std::string(kPagePanel),
+       .tail = R"(<script src="/studio.js"></script>)"});
+}
+
+std::string page_style() {
+  return std::string(slicer::viewer_style()).append(kPageStyle);
+}
+
+std::string page_script() {
+  return std::string("\"use strict\";\n")
+      .append(slicer::viewer_script())
+      .append(kPageScript);
+}
+
+}  // namespace lamina::studio

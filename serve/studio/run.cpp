@@ -1,0 +1,229 @@
+#include "serve/studio/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/paths.h"
+#include "base/text.h"
+#include "compiler/compile.h"
+#include "compiler/look_at.h"
+#include "compiler/stage_text.h"
+#include "compiler/tasks/viewer_options.h"
+#include "serve/studio/frames.h"
+#include "serve/studio/source_text.h"
+#include "slicer/picture/viewer_part.h"
+
+namespace lamina::studio {
+namespace {
+
+constexpr double kStep = 1e-3;  // of coordinates on the wire [mm]
+
+// Does the work and reports what it throws. Returns what the work returns, or
+// false where it throws.
+bool run_caught(compiler::Compilation& c, const std::function<bool()>& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (!compiler::is_among(c.diagnostics, error.diagnostic())) {
+      c.diagnostics.report(error.diagnostic());
+    }
+  } catch (const std::bad_alloc&) {
+    c.diagnostics.error({}, "out of memory");
+  } catch (const std::exception& error) {
+    c.diagnostics.error(
+        {}, fmt::format("internal error, please report: {}", error.what()));
+  }
+  return false;
+}
+
+std::string folder_of_design(const compiler::Compilation& c) {
+  return folder_of(c.request.design.path);
+}
+
+std::string title_of(const compiler::Compilation& c) {
+  return std::filesystem::path(c.request.design.path).filename();
+}
+
+void send_answer(int output, unsigned status, const std::string& json) {
+  write_frame(output, FrameKind::kAnswer, fmt::format("{} {}", status, json));
+}
+
+// Answers that the messages say why nothing could be made.
+void send_messages(const compiler::Compilation& c, int output) {
+  send_answer(
+      output, 422,
+      fmt::format(R"({{"messages":{}}})",
+                  messages_json(c.diagnostics.all(), folder_of_design(c))));
+}
+
+class ShownChoice {
+ public:
+  ShownChoice(compiler::Compilation& c, const Choice& choice, int output)
+      : c_(c), choice_(choice), output_(output) {}
+
+  void show() {
+    const bool is_well = run_caught(c_, [&] { return make(); });
+    send_files();
+    send_messages();
+    send(end_event(choice_.number, is_well, seconds_to_layer_, seconds()));
+  }
+
+ private:
+  bool make() {
+    if (!c_.is_read) compiler::read_design(c_);
+    send_form();
+    if (!compiler::make_tree(c_)) return false;
+    send_files();
+    send_messages();
+    c_.report.machine =
+        compiler::choose_machine(c_.request.output, c_.file_access());
+    const csg::Lowered lowered = compiler::lower_tree(c_);
+    send_layer_in_view(lowered);
+    send_all(lowered);
+    return true;
+  }
+
+  // A design that is to be read in the run itself has its form already, or
+  // fails.
+  void send_form() {
+    const Form form = form_of(c_.design.program, c_.request.design.path,
+                              c_.file_access(), c_.diagnostics);
+    if (form.key != choice_.form) send(form_event(choice_.number, form));
+  }
+
+  // The layer that the page shows now, before all others.
+  void send_layer_in_view(const csg::Lowered& lowered) {
+    const csg::Scene* scene = lowered.scene();
+    if (scene == nullptr) return;
+    slicer::Settings settings = settings_of(c_.request, c_.report.machine);
+    settings.min_feature = 0;
+    settings.finds_makers = false;
+    const ldni::LayerGrid grid = slicer::plan_layers(*scene, settings);
+    const std::uint32_t count = grid.layer_count();
+    if (count == 0) return;
+    const double bottom = grid.layer_bottom(0);
+    const double z =
+        bottom + choice_.z.value_or((grid.layer_top(count - 1) - bottom) / 2);
+    const std::uint32_t index = std::min(count - 1, grid.layers_below(z));
+    settings.written = {index + 1, index + 1};
+    slicer::LayerList list;
+    Diagnostics unshown;  // slicing all layers will say it
+    try {
+      slicer::slice(*scene, grid, settings, list, unshown);
+    } catch (const GeometryError&) {
+      return;  // there is nothing in this layer, or in any
+    }
+    if (list.layers.empty()) return;
+    const Box2 box{Vec2(scene->box.low), Vec2(scene->box.high)};
+    const slicer::ViewerLayer layer =
+        slicer::viewer_layer(list.layers.front(), box, kStep);
+    seconds_to_layer_ = seconds();
+    send(fmt::format(
+        R"({{"kind":"layer","number":{},"index":{},"count":{},"bottom":{},)"
+        R"("low":[{},{}],"high":[{},{}],"step":{},"row":{},"contours":"{}"}})",
+        choice_.number, index, count, bottom, box.low.x, box.low.y, box.high.x,
+        box.high.y, layer.step, layer.row, base64(layer.contours)));
+  }
+
+  void send_all(const csg::Lowered& lowered) {
+    const compiler::Inspection inspection = compiler::look_at_design(
+        lowered, c_.request, c_.report.machine,
+        {.makes_graph = true, .keeps_layers = true, .keeps_colors = true},
+        c_.on_progress, c_.diagnostics);
+    slicer::ViewerOptions options =
+        compiler::viewer_options(c_, inspection, title_of(c_));
+    options.step = kStep;
+    const slicer::ViewerPart part =
+        slicer::viewer_part(inspection.layers, options);
+    send(fmt::format(
+        R"({{"kind":"part","number":{},"facts":{},"contours":"{}"}})",
+        choice_.number, part.facts, base64(part.contours)));
+    send(report_event(choice_.number, c_, inspection.found));
+  }
+
+  void send_files() {
+    std::string list = sets_file(c_.request.design.path) + '\n';
+    for (const std::string& file : compiler::files_read(c_)) {
+      list += file + '\n';
+    }
+    write_frame(output_, FrameKind::kFiles, list);
+  }
+
+  // All of them so far, where they are others than were sent.
+  void send_messages() {
+    std::string messages =
+        messages_json(c_.diagnostics.all(), folder_of_design(c_));
+    if (messages == sent_messages_) return;
+    send(messages_event(choice_.number, messages));
+    sent_messages_ = std::move(messages);
+  }
+
+  void send(const std::string& event) {
+    write_frame(output_, FrameKind::kEvent, event);
+  }
+
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                         begin_)
+        .count();
+  }
+
+  compiler::Compilation& c_;
+  const Choice& choice_;
+  const int output_;
+  const std::chrono::steady_clock::time_point begin_ =
+      std::chrono::steady_clock::now();
+  double seconds_to_layer_ = -1;
+  std::string sent_messages_;
+};
+
+}  // namespace
+
+void show_choice(compiler::Compilation& compilation, const Choice& choice,
+                 int output) {
+  ShownChoice(compilation, choice, output).show();
+}
+
+void write_output(compiler::Compilation& c, const Choice& choice, int output) {
+  c.request.output.path = "-";
+  if (!run_caught(c, [&] { return compiler::compile(c); })) {
+    send_messages(c, output);
+    return;
+  }
+  const std::string stem = std::filesystem::path(c.request.design.path).stem();
+  send_answer(output, 200, text_of({{"name", stem + "." + choice.format}}));
+}
+
+void write_source(compiler::Compilation& c, const Choice& choice, int output) {
+  const std::string& path = c.request.design.path;
+  const bool is_done = run_caught(c, [&] {
+    if (!c.is_read) compiler::read_design(c);
+    const SourceEdit edit = edit_source(c.design.program, choice.values,
+                                        c.design.language, c.diagnostics);
+    if (choice.key.empty()) {
+      send_answer(output, 200,
+                  text_of({{"diff", edit.diff}, {"key", edit.key}}));
+      return true;
+    }
+    // The file may have changed since it was read, or since it was shown.
+    if (choice.key != edit.key || c.file_access().read(path) != edit.before) {
+      send_answer(output, 409, R"({"messages":[]})");
+      return true;
+    }
+    c.file_access().run_files()->begin_again(c.file_access());
+    compiler::write_file(path, edit.text, c.temporary_files);
+    send_answer(output, 200, text_of({{"written", title_of(c)}}));
+    return true;
+  });
+  if (!is_done) send_messages(c, output);
+}
+
+}  // namespace lamina::studio
