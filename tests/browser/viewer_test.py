@@ -3,6 +3,8 @@
 usage: viewer_test.py LAMINA [unittest's arguments]
 """
 
+import base64
+import json
 import os
 import re
 import subprocess
@@ -405,8 +407,8 @@ class ViewerTest(unittest.TestCase):
         # Notes each solid when it is drawn, and whether the word is there.
         with open(self.path("noted.html"), "w", encoding="utf-8") as file:
             file.write(page.replace(
-                "this.solid.open(() => this.draw())",
-                "this.solid.open(() => { (window.noted ||= []).push("
+                "this.solid.show(this.part, () => this.draw())",
+                "this.solid.show(this.part, () => { (window.noted ||= []).push("
                 "[this.solid.bodies[0].mesh.quads.count,"
                 " this.solid.bodies[0].mesh.layers.length,"
                 " byId('working').hidden]); this.draw(); })"))
@@ -733,6 +735,195 @@ class ViewerTest(unittest.TestCase):
                           if not url.startswith(("file:", "data:"))], [])
         self.assertEqual(len([url for url in self.browser.requests
                               if url.startswith("file:")]), 1)
+
+    # ---- One part after another, as the studio shows them.
+
+    def part_of(self, design, *options):
+        """What a page has of a design: an expression that makes its part."""
+        name = f"part{abs(hash((design, options)))}"
+        with open(self.path(f"{name}.scad"), "w", encoding="utf-8") as file:
+            file.write(design)
+        lamina("view", self.path(f"{name}.scad"), "-o",
+               self.path(f"{name}.html"), "--layer", "0.1", *options)
+        with open(self.path(f"{name}.html"), encoding="utf-8") as file:
+            page = file.read()
+        facts = re.search('id="facts">(.*)</script>', page)[1]
+        contours = re.search('id="contours">(.*)</script>', page)[1]
+        return (f"inflate(bytesOf('{contours}')).then("
+                f"(bytes) => readPart({facts}, bytes))")
+
+    def set_part(self, *part):
+        self.browser.evaluate(
+            f"{self.part_of(*part)}.then((part) => viewer.setPart(part))"
+            ".then(() => viewer.opened)")
+        self.browser.settle()
+
+    def test_another_part_keeps_what_the_reader_has_chosen(self):
+        self.open("plate.html", "theme=light&layer=15")
+        x, y = self.on_page(13, 23)
+        self.browser.wheel(x, y, -300)
+        self.browser.press("b")
+        self.browser.press("m")
+        self.browser.click(*self.on_page(11, 22))
+        self.browser.click(*self.on_page(11.25, 22))
+        told = self.browser.text("distance")
+        self.browser.evaluate("viewer.solid.turn(90, -40); viewer.zoomSolid(1.5)")
+        kept = ("[viewer.solid.yaw, viewer.solid.pitch, viewer.solid.zoomed,"
+                " viewer.view.scale, viewer.state.below, viewer.isMeasuring]")
+        before = self.browser.evaluate(kept)
+        x, y = self.on_page(13, 23)
+        # A part that is larger to all sides, and has its bed 1 mm lower.
+        self.set_part("translate([5, 15, -3]) cube([20, 18, 9]);")
+        self.assertEqual(self.browser.evaluate(kept), before)
+        after = self.on_page(13, 23)
+        self.assertAlmostEqual(after[0], x, delta=1e-6)
+        self.assertAlmostEqual(after[1], y, delta=1e-6)
+        self.assertEqual(self.browser.text("number"), "15 of 90")
+        self.assertEqual(self.browser.text("distance"), told)
+        self.assertIn("20.00 × 18.00 × 9.00 mm", self.browser.text("summary"))
+        # A low part is shown at its top; a high one again where it was.
+        self.set_part("cube([20, 20, 1]);")
+        self.assertEqual(self.browser.text("number"), "10 of 10")
+        self.set_part("cube([20, 20, 4]);")
+        self.assertEqual(self.browser.text("number"), "15 of 40")
+
+    def test_a_fitted_drawing_is_fitted_anew_where_the_size_changes(self):
+        self.open("plate.html")
+        scale = self.browser.evaluate("viewer.view.scale")
+        x, y = self.on_page(15, 25)
+        self.set_part("translate([10.5, 20.5, 0]) cube([10, 10, 2]);")
+        after = self.on_page(15, 25)
+        self.assertAlmostEqual(after[0], x, delta=1e-6)
+        self.assertAlmostEqual(after[1], y, delta=1e-6)
+        self.set_part("translate([10, 20, 0]) cube([20, 20, 2]);")
+        self.assertAlmostEqual(self.browser.evaluate("viewer.view.scale"),
+                               scale / 2, delta=1e-9)
+        middle = self.on_page(20, 30)
+        self.assertAlmostEqual(middle[0], x, delta=1)
+        self.assertAlmostEqual(middle[1], y, delta=1)
+
+    def test_a_part_with_findings_or_supports_shows_their_buttons(self):
+        self.open("plate.html")
+        self.assertFalse(self.is_hidden("findings"))
+        bare = ("cube([10, 10, 2]);",)
+        self.browser.evaluate(
+            f"{self.part_of(*bare)}.then((part) => viewer.setPart("
+            "{...part, found: null}))")
+        self.assertTrue(self.is_hidden("findings"))
+        self.assertTrue(self.is_hidden("marks"))
+        self.set_part(HELD)
+        self.assertFalse(self.is_hidden("findings"))
+        self.assertFalse(self.is_hidden("supports"))
+        self.browser.press("u")
+        self.browser.press("t")
+        self.set_part(HELD + "translate([20, 0, 0]) cube(2);")
+        self.assertTrue(self.is_hidden("findings"))
+        self.assertFalse(self.browser.evaluate("viewer.state.supports"))
+
+    def test_a_layer_that_comes_early_is_drawn_until_the_part_is_there(self):
+        self.open("plate.html", "theme=light&layer=5&view=layer")
+        chosen = []
+        self.browser.evaluate(
+            "window.chosen = []; viewer.onChoose = (z) => chosen.push(z)")
+        # A frame of 2 mm around [8, 22] × [18, 34], in steps of 0.5 mm.
+        loops = [[(8, 18), (22, 18), (22, 34), (8, 34)],
+                 [(10, 20), (10, 32), (20, 32), (20, 20)]]
+        numbers = [len(loops)]
+        last = (8, 18)
+        for loop in loops:
+            numbers.append(len(loop))
+            for point in loop:
+                for now, before in zip(point, last):
+                    steps = round((now - before) / 0.5)
+                    numbers.append(2 * steps if steps >= 0 else -2 * steps - 1)
+                last = point
+        contours = base64.b64encode(bytes(numbers)).decode()
+        event = {"kind": "layer", "number": 17, "index": 63, "count": 480,
+                 "row": [4.175, 4.15, 4.2, 2, 1, 8, 104, 104], "bottom": 1,
+                 "low": [8, 18], "high": [22, 34], "step": 0.5,
+                 "contours": contours}
+        self.browser.evaluate(
+            f"viewer.showLayer(readLayer({json.dumps(event)}))")
+        self.browser.settle()
+        picture = self.browser.screenshot()
+        left, top, _, _ = self.browser.place_of("drawing")
+        for place, name in [((9.2, 25.3), "solid"), ((21.2, 33.3), "solid"),
+                            ((15.3, 19.2), "solid"), ((11.3, 25.3), "field"),
+                            ((12.3, 28.3), "field"), ((22.3, 25.3), "field")]:
+            x, y = self.browser.evaluate(
+                f"viewer.view.toPage([{place[0]} - 8, {place[1]} - 18])")
+            self.assertEqual(picture.at(left + x, top + y), LIGHT[name], place)
+        self.assertEqual(self.browser.text("number"), "64 of 480")
+        self.assertEqual(self.browser.text("height"), "3.175 mm")
+        self.assertEqual(self.browser.text("area"), "104.0000 mm²")
+        self.assertEqual(self.browser.evaluate(
+            "[+document.getElementById('slider').value,"
+            " +document.getElementById('slider').max]"), [64, 480])
+        self.assertEqual(self.browser.evaluate("chosen"), chosen)
+        # The reader goes on in the part that is there, and is heard.
+        self.browser.press("ArrowUp")
+        number, count = self.browser.text("number").split(" of ")
+        self.assertEqual(count, "20")
+        self.assertAlmostEqual(self.browser.evaluate("chosen[0]"),
+                               (int(number) - 0.5) * 0.1)
+        self.browser.evaluate(
+            f"viewer.showLayer(readLayer({json.dumps(event)}))")
+        self.set_part("cube([10, 10, 2]);")
+        self.assertEqual(self.browser.text("number").split(" of ")[1], "20")
+        self.assertEqual(self.browser.text("area"), "100.0000 mm²")
+
+    def test_many_parts_leave_nothing_behind(self):
+        self.open("plate.html")
+        grown = self.browser.evaluate(f"""(async () => {{
+          const parts = [await {self.part_of(PLATE)}, await {self.part_of(HELD)}];
+          let count = 0;
+          const wrap = (owner, name, by) => {{
+            const plain = owner[name];
+            owner[name] = function(...given) {{
+              if (by > 0 || given[0]) count += by;
+              return plain.apply(this, given);
+            }};
+          }};
+          const gl = WebGL2RenderingContext.prototype;
+          for (const what of ["Buffer", "VertexArray", "Program", "Shader", "Texture"]) {{
+            wrap(gl, "create" + what, 1);
+            wrap(gl, "delete" + what, -1);
+          }}
+          wrap(EventTarget.prototype, "addEventListener", 1);
+          wrap(ResizeObserver.prototype, "observe", 1);
+          viewer.setPart(parts[1]);
+          await viewer.opened;
+          const first = [count, document.querySelectorAll("*").length];
+          for (let i = 0; i < 200; ++i) {{
+            viewer.setPart(parts[i % 2]);
+            // Some are not waited for.
+            if (i % 3) await viewer.opened;
+          }}
+          await viewer.opened;
+          return [count - first[0],
+            document.querySelectorAll("*").length - first[1],
+            viewer.solid.part === parts[1]];
+        }})()""")
+        self.assertEqual(grown, [0, 0, True])
+
+    def test_the_solid_before_is_shown_until_the_next_is_made(self):
+        self.open("plate.html", "theme=light&view=3d")
+        shown = self.browser.evaluate(f"""(async () => {{
+          const before = viewer.part;
+          const next = await {self.part_of(GEAR)};
+          viewer.setPart(next);
+          const seen = [viewer.solid.part === before && viewer.solid.bodies.length];
+          viewer.draw();
+          const first = await viewer.opened;
+          seen.push(first, viewer.solid.part === next);
+          // One that is not wanted any more is not made.
+          viewer.setPart(before);
+          const dropped = viewer.opened;
+          viewer.setPart(next);
+          seen.push(await dropped, await viewer.opened, viewer.solid.part === next);
+          return seen;
+        }})()""")
+        self.assertEqual(shown, [1, True, True, False, True, True])
 
     def test_names_are_no_markup(self):
         name = "a<b>&amp;</script>.slc".replace("/", "")

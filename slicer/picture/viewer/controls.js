@@ -6,6 +6,9 @@ const kClickReach = 5;       // what moves farther is no click [pixels]
 const kListedPlaces = 200;   // of a kind
 const kPhone = "(max-width: 760px)";  // as in style.css
 
+// What takes all keys by itself while it has the focus.
+const kKeyTakers = "input:not(#slider), select, textarea, [contenteditable], dialog:not(#keys)";
+
 const kIcons = {
   play: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M5 2.5v15l12-7.5z"/></svg>',
   pause: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M4 3h4v14H4zm8 0h4v14h-4z"/></svg>',
@@ -38,19 +41,40 @@ function make(name, text = "") {
   return element;
 }
 
+function fullestLayer({partLayers}) {
+  const areas = partLayers.map((layer) => layer.area);
+  return areas.indexOf(Math.max(...areas));
+}
+
+// Of the middle of a layer, above the bed.
+function heightOf({layers}, index) {
+  const layer = layers[Math.min(layers.length - 1, Math.max(0, index))];
+  return middleOf(layer, layers[0].bottom);
+}
+
+// Shows a part, and another one after it.
+//
+// onChoose  called with the height above the bed of the middle of the layer that
+//           the reader has chosen [mm]
 class Viewer {
-  constructor(part) {
-    this.part = part;
+  // asked: {layer, view}: the number of the layer to open with, and "3d" or "layer"
+  // where only one of both panes is to be open.
+  constructor(part, asked = {}) {
     this.view = new View();
-    this.drawing = new Drawing(byId("drawing"), part, this.view);
-    this.plot = new Plot(byId("plot"), part);
-    this.solid = new Solid(byId("solid"), part);
+    this.drawing = new Drawing(byId("drawing"), this.view);
+    this.plot = new Plot(byId("plot"));
+    this.solid = new Solid(byId("solid"));
     this.state = {
-      index: 0, below: false, marks: part.found !== null, supports: part.supports !== null,
-      pointer: null, ends: [],
+      index: 0, early: null, below: false, marks: true, supports: true, pointer: null, ends: [],
     };
-    this.describePart();
-    this.listPlaces();
+    this.onChoose = () => {};
+    this.isListing = !matchMedia(kPhone).matches;
+    this.isFitted = true;
+    this.isWhole = !asked.layer;
+    this.height = asked.layer ? heightOf(part, asked.layer - 1) :
+      heightOf(part, fullestLayer(part));
+    byId("theme").innerHTML = kIcons.theme;
+    byId("play").innerHTML = kIcons.play;
     this.bindSlider();
     this.bindButtons();
     this.bindKeys();
@@ -58,29 +82,59 @@ class Viewer {
     this.bindOrbit();
     const resizes = new ResizeObserver(() => this.resize());
     for (const pane of document.querySelectorAll(".pane")) resizes.observe(pane);
-    const asked = /layer=(\d+)/.exec(location.hash);
-    this.choose(asked ? +asked[1] - 1 : this.fullestLayer());
-    this.isWhole = !asked;
-    const view = /view=(3d|layer)/.exec(location.hash);
-    if (view) this.togglePane(view[1] === "3d" ? "section" : "orbit");
+    this.setPart(part);
+    if (asked.view) this.togglePane(asked.view === "3d" ? "section" : "orbit");
     this.fit();
+    window.viewer = this;
+  }
+
+  // Shows another part instead. What the reader has chosen stays: the layer's height,
+  // the places on the page, the solid's turn, the buttons, and the ends of a distance.
+  // `opened` is fulfilled when the solid is made, with false where yet another part
+  // came before.
+  setPart(part) {
+    this.part = this.drawing.part = this.plot.part = part;
+    this.state.early = null;
+    this.state.index = layerAt(part.layers, this.height);
+    this.takePlace(part);
+    this.describePart();
+    this.listPlaces();
+    this.describeLayer();
+    this.opened = this.openSolid();
+    this.draw();
+  }
+
+  // Shows a layer of the part that comes, as readLayer() makes it.
+  showLayer(early) {
+    this.state.early = early;
+    this.takePlace(early);
+    byId("slider").max = early.count;
+    this.describeLayer();
+    this.draw();
+  }
+
+  // Keeps absolute places where they are on the page. A drawing that was fitted stays
+  // so where the size has changed, or part of it would not be seen.
+  takePlace({low, size}) {
+    const [width, depth] = size;
+    this.view.countFrom(low);
+    const isSame = this.size && this.size[0] === width && this.size[1] === depth;
+    this.size = [width, depth];
+    if (this.isFitted && !(isSame && this.view.hasAll(this.size, this.room()))) this.resize();
   }
 
   // Makes the solid, which takes a while, or says why there is none.
   async openSolid() {
+    byId("working").hidden = false;
     try {
-      await this.solid.open(() => this.draw());
-      byId("working").hidden = true;
+      if (!await this.solid.show(this.part, () => this.draw())) return false;
     } catch (error) {
-      byId("solid").hidden = byId("working").hidden = true;
+      byId("solid").hidden = true;
       byId("no-solid").hidden = false;
       byId("no-solid").textContent = error.message;
     }
-  }
-
-  fullestLayer() {
-    const areas = this.part.partLayers.map((layer) => layer.area);
-    return areas.indexOf(Math.max(...areas));
+    byId("working").hidden = true;
+    return true;
   }
 
   // The layers as they are shown.
@@ -93,8 +147,6 @@ class Viewer {
     byId("title").textContent = title;
     byId("supports").hidden = !supports;
     for (const element of document.querySelectorAll(".of-supports")) element.hidden = !supports;
-    byId("theme").innerHTML = kIcons.theme;
-    byId("play").innerHTML = kIcons.play;
     byId("slider").max = layers.length;
     this.summarize();
   }
@@ -112,17 +164,20 @@ class Viewer {
   // Lists what was found by kind, and what one line of the design made as one.
   listPlaces() {
     const {found} = this.part;
-    if (!found) return;
-    byId("marks").hidden = false;
     const list = byId("findings");
+    const seen = list.scrollTop;
+    list.replaceChildren();
+    byId("marks").hidden = !found;
+    list.hidden = !found || !this.isListing;
+    if (!found) return;
     const kinds = groupBy(found.places, ({kind}) => kind);
     const heading = make("h2", found.places.length > 0 ? "Findings" :
       found.hasPrint ? "No problems found" : `Nothing thinner than ${this.part.minFeature} mm`);
     list.append(heading);
     for (const [kind, places] of kinds) list.append(...this.listKind(kind, places));
     list.append(...found.notes.map((note) => make("p", note)));
-    list.hidden = matchMedia(kPhone).matches;
-    byId("marks").setAttribute("aria-pressed", !list.hidden);
+    list.scrollTop = seen;
+    byId("marks").setAttribute("aria-pressed", this.isListing);
   }
 
   listKind(kind, places) {
@@ -162,9 +217,15 @@ class Viewer {
     return item;
   }
 
-  // In mm above the bed.
-  heightText({z}) {
-    return fixed(z - this.part.layers[0].bottom, 3);
+  // The layer that is shown, as it is shown, its number, and how many there are.
+  get inView() {
+    const {early, index} = this.state;
+    return early ? {layer: early.layer, number: early.index + 1, count: early.count, bed: early.bed} :
+      {layer: this.layers[index], number: index + 1, count: this.layers.length, bed: this.bed};
+  }
+
+  get bed() {
+    return this.part.layers[0].bottom;
   }
 
   // Goes to a place, and turns the solid so that it is seen.
@@ -176,28 +237,44 @@ class Viewer {
     const [x, y] = place.place;
     this.view.show([x - reach, y - reach], [x + reach, y + reach], ...this.room());
     this.isFitted = false;
-    this.solid.turnTo(place.place);
+    this.solid.turnTo(place.place, this.part.size);
     this.draw();
   }
 
+  // Goes to a layer, counted from 0. The layers of a part that comes are not there
+  // yet: of the part before, that at the same share of the height is shown.
   choose(index) {
     this.isWhole = false;
-    this.state.index = Math.min(this.layers.length - 1, Math.max(0, Math.round(index)));
+    const {number, count} = this.inView;
+    const chosen = Math.min(count - 1, Math.max(0, Math.round(index)));
+    if (chosen !== number - 1) {
+      this.leaveEarly();
+      const {length} = this.layers;
+      this.state.index = Math.min(length - 1, Math.round(chosen * length / count));
+      this.height = heightOf(this.part, this.state.index);
+      this.onChoose(this.height);
+    }
     this.describeLayer();
     this.draw();
   }
 
+  leaveEarly() {
+    if (!this.state.early) return;
+    this.state.early = null;
+    this.takePlace(this.part);
+    byId("slider").max = this.part.layers.length;
+  }
+
   describeLayer() {
-    const {layers} = this;
-    const layer = layers[this.state.index];
-    const number = this.state.index + 1;
-    byId("number").textContent = `${number} of ${layers.length}`;
-    byId("height").textContent = `${this.heightText(layer)} mm`;
+    const {layer, number, count, bed} = this.inView;
+    const height = fixed(layer.z - bed, 3);
+    byId("number").textContent = `${number} of ${count}`;
+    byId("height").textContent = `${height} mm`;
     byId("area").textContent = `${fixed(layer.area, 4)} mm²`;
     byId("loops").textContent = layer.holes === 0 ? `${layer.loops}` :
       `${layer.loops}, ${layer.holes} of them ${layer.holes === 1 ? "a hole" : "holes"}`;
     byId("perimeter").textContent = `${fixed(layer.perimeter, 3)} mm`;
-    const words = `Layer ${number} of ${layers.length}, z ${this.heightText(layer)} mm above the bed, ` +
+    const words = `Layer ${number} of ${count}, z ${height} mm above the bed, ` +
       `area ${fixed(layer.area, 2)} mm²`;
     byId("slider").value = number;
     byId("slider").setAttribute("aria-valuetext", words);
@@ -211,7 +288,7 @@ class Viewer {
       this.frame = 0;
       if (!byId("drawing-pane").hidden) this.drawing.draw(this.state);
       if (!byId("solid-pane").hidden) {
-        this.solid.draw(this.state, this.isWhole);
+        this.solid.draw(this.state, this.height, this.isWhole);
       }
       this.plot.draw(this.state);
     });
@@ -230,7 +307,7 @@ class Viewer {
   }
 
   resize() {
-    if (this.isFitted) this.view.show([0, 0], this.part.size, ...this.room());
+    if (this.isFitted) this.view.show([0, 0], this.size, ...this.room());
     this.draw();
   }
 
@@ -245,7 +322,7 @@ class Viewer {
       byId("hint").style.left = `${Math.min(slider.clientWidth - 70,
           Math.max(70, event.offsetX))}px`;
       byId("hint").textContent =
-          `${index + 1}: z ${this.heightText(layers[index])}, ${fixed(layers[index].area, 2)} mm²`;
+          `${index + 1}: z ${fixed(layers[index].z - this.bed, 3)}, ${fixed(layers[index].area, 2)} mm²`;
     };
     slider.onpointerleave = () => { byId("hint").hidden = true; };
     byId("profile").onwheel = (event) => {
@@ -256,7 +333,11 @@ class Viewer {
 
   // Goes up or down by a layer, as the wheel turns.
   leaf(event) {
-    this.choose(this.state.index - Math.sign(event.deltaY || event.deltaX));
+    this.move(-Math.sign(event.deltaY || event.deltaX));
+  }
+
+  move(layers) {
+    this.choose(this.inView.number - 1 + layers);
   }
 
   toggle(name) {
@@ -274,10 +355,10 @@ class Viewer {
 
   // On a phone the list is a drawer over the part, which has its marks anyhow.
   toggleMarks() {
-    const list = byId("findings");
-    list.hidden = !list.hidden;
-    this.state.marks = matchMedia(kPhone).matches || !list.hidden;
-    byId("marks").setAttribute("aria-pressed", !list.hidden);
+    this.isListing = !this.isListing;
+    this.state.marks = matchMedia(kPhone).matches || this.isListing;
+    byId("findings").hidden = !this.isListing;
+    byId("marks").setAttribute("aria-pressed", this.isListing);
     this.draw();
   }
 
@@ -315,6 +396,7 @@ class Viewer {
     byId("play").innerHTML = this.isPlaying ? kIcons.pause : kIcons.play;
     byId("play").setAttribute("aria-pressed", this.isPlaying);
     if (!this.isPlaying) return;
+    this.leaveEarly();
     const last = this.part.layers.length - 1;
     const speed = Math.max(kPlaySpeed, last / 20);
     const from = this.state.index === last ? 0 : this.state.index;
@@ -322,7 +404,7 @@ class Viewer {
     const step = (now) => {
       if (!this.isPlaying) return;
       this.choose(from + Math.max(0, now - begin) / 1000 * speed);
-      if (this.state.index < last) requestAnimationFrame(step);
+      if (this.inView.number < this.inView.count) requestAnimationFrame(step);
       else this.play();
     };
     requestAnimationFrame(step);
@@ -356,11 +438,10 @@ class Viewer {
         this.zoomDrawing(factor, this.room().map((length) => length / 2));
       }
     };
-    const move = (layers) => this.choose(this.state.index + layers);
     const keys = {
-      ArrowUp: () => move(1), ArrowRight: () => move(1),
-      ArrowDown: () => move(-1), ArrowLeft: () => move(-1),
-      PageUp: () => move(10), PageDown: () => move(-10),
+      ArrowUp: () => this.move(1), ArrowRight: () => this.move(1),
+      ArrowDown: () => this.move(-1), ArrowLeft: () => this.move(-1),
+      PageUp: () => this.move(10), PageDown: () => this.move(-10),
       Home: () => this.choose(0), End: () => this.choose(Infinity),
       "+": () => zoom(1.25), "=": () => zoom(1.25), "-": () => zoom(.8),
       f: () => this.fit(), 0: () => this.fit(),
@@ -373,11 +454,12 @@ class Viewer {
       Escape: () => this.isMeasuring && this.toggleMeasure(),
     };
     document.addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
       if (byId("keys").open && event.key !== "?") return;
+      if (event.target.closest(kKeyTakers)) return;
       const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-      // Space and Enter press the button that has the focus.
-      if (!act || (event.key === " " && event.target.tagName === "BUTTON")) return;
+      // Space presses the button that has the focus.
+      if (!act || (event.key === " " && event.target.closest("button, summary, a"))) return;
       event.preventDefault();
       act();
     });
@@ -423,7 +505,7 @@ class Viewer {
       this.state.pointer = placeOf(event);
       const [x, y] = this.view.toPart(this.state.pointer);
       byId("pointer").textContent =
-          `x ${fixed(x + this.part.low[0], 3)}  y ${fixed(y + this.part.low[1], 3)} mm`;
+          `x ${fixed(x + this.view.low[0], 3)}  y ${fixed(y + this.view.low[1], 3)} mm`;
       this.draw();
     };
     canvas.onpointerup = canvas.onpointercancel = (event) => {
@@ -478,11 +560,9 @@ class Viewer {
     if (!this.isMeasuring) return;
     const {state} = this;
     if (state.ends.length === 2) state.ends = [];
-    state.ends.push({
-      index: state.index,
-      place: snap(this.layers[state.index], this.view.toPart(at),
-          kSnapReach / this.view.scale),
-    });
+    const {layer, bed} = this.inView;
+    const [x, y] = snap(layer, this.view.toPart(at), kSnapReach / this.view.scale);
+    state.ends.push([x + this.view.low[0], y + this.view.low[1], layer.z - bed]);
     this.tellDistance();
     this.draw();
   }
@@ -496,25 +576,30 @@ class Viewer {
         "<small>Click the second point, in this layer or another</small>";
       return;
     }
-    const {layers} = this.part;
-    const [a, b] = ends;
-    const dx = b.place[0] - a.place[0];
-    const dy = b.place[1] - a.place[1];
-    const dz = layers[b.index].z - layers[a.index].z;
-    const parts = [["Δx", dx], ["Δy", dy]].concat(dz ? [["Δz", dz]] : []);
+    const [dx, dy, dz] = ends[1].map((value, i) => value - ends[0][i]);
+    const parts = [["Δx", dx], ["Δy", dy]].concat(Math.abs(dz) > 1e-9 ? [["Δz", dz]] : []);
     byId("distance").innerHTML = `${fixed(Math.hypot(dx, dy, dz), 3)} mm <small> ` +
       parts.map(([name, length]) => `${name} ${fixed(length, 3)}`).join("  ") +
       "</small>";
   }
 }
 
-async function start() {
-  const dark = /theme=(dark|light)/.exec(location.hash);
-  document.documentElement.dataset.theme = dark ? dark[1] :
-    matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+// Chooses light or dark: what is asked for, or else what the reader has.
+function openTheme(asked) {
+  document.documentElement.dataset.theme = asked ||
+    (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+}
+
+// Opens the page that has its part within it.
+async function startPage() {
+  const asked = (pattern) => (pattern.exec(location.hash) || [])[1];
+  const text = (id) => byId(id).textContent;
+  openTheme(asked(/theme=(dark|light)/));
   try {
-    window.viewer = new Viewer(await readPart());
-    await window.viewer.openSolid();
+    const part = readPart(JSON.parse(text("facts")), await inflate(bytesOf(text("contours"))));
+    const viewer = new Viewer(part,
+        {layer: +asked(/layer=(\d+)/) || 0, view: asked(/view=(3d|layer)/)});
+    await viewer.opened;
     document.documentElement.dataset.ready = "true";
   } catch (error) {
     byId("fault").hidden = false;
@@ -523,5 +608,3 @@ async function start() {
     throw error;
   }
 }
-
-start();

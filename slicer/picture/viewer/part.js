@@ -24,8 +24,9 @@ class Numbers {
   }
 }
 
-async function inflate(base64) {
-  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+const bytesOf = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+
+async function inflate(bytes) {
   const stream = new Blob([bytes]).stream().pipeThrough(
       new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
@@ -65,7 +66,12 @@ function readBodies(numbers, places, contours, count) {
     ...contours.filter((_, i) => owners[i] === owner), ...readLoops(numbers, places)]);
 }
 
-// {title, estimate, low, size, volume, minFeature, layers: [{z, bottom, top,
+// A layer from its row, without contours.
+const layerOf = ([z, bottom, top, loops, holes, vertices, area, perimeter]) =>
+  ({z, bottom, top, loops, holes, vertices, area, perimeter, marks: []});
+
+// The part from its facts and the bytes of its contours, as
+// slicer/picture/viewer_part.h makes them: {title, estimate, low, size, volume, minFeature, layers: [{z, bottom, top,
 // loops, holes, vertices, area, perimeter, contours, marks}], found, supports,
 // colored};
 // contours are lists of loops; found has what was looked for, else it is null:
@@ -73,13 +79,9 @@ function readBodies(numbers, places, contours, count) {
 // hasPrint}. supports is null where there are none: {text, partVolume, layers:
 // [{bottom, top, contours}]}. partLayers are the layers without supports; colored
 // is what of the part has a color: [{color, layers}].
-async function readPart() {
-  const text = (id) => document.getElementById(id).textContent;
-  const facts = JSON.parse(text("facts"));
-  const numbers = new Numbers(await inflate(text("contours")));
-  const layers = facts.layers.map(
-      ([z, bottom, top, loops, holes, vertices, area, perimeter]) =>
-        ({z, bottom, top, loops, holes, vertices, area, perimeter, marks: []}));
+function readPart(facts, bytes) {
+  const numbers = new Numbers(bytes);
+  const layers = facts.layers.map(layerOf);
 
   let places = new Places(numbers, facts.step);
   for (const layer of layers) {
@@ -135,6 +137,25 @@ async function readPart() {
     found,
   };
 }
+
+// A layer by itself, as the studio sends it before all others: {layer, index,
+// count, low, size, bed}; bed is where heights are counted from.
+function readLayer({row, index, count, low, high, bottom, step, contours}) {
+  const numbers = new Numbers(bytesOf(contours));
+  const layer = layerOf(row);
+  layer.contours = readLoops(numbers, new Places(numbers, step));
+  return {layer, index, count, low, size: [high[0] - low[0], high[1] - low[1]], bed: bottom};
+}
+
+// The layer whose middle is nearest to a height above the bed.
+function layerAt(layers, height) {
+  const away = (layer) => Math.abs(middleOf(layer, layers[0].bottom) - height);
+  let nearest = 0;
+  layers.forEach((layer, i) => { if (away(layer) < away(layers[nearest])) nearest = i; });
+  return nearest;
+}
+
+const middleOf = ({bottom, top}, bed) => (bottom + top) / 2 - bed;
 
 // The path of a layer's contours, made when it is first drawn.
 function pathOf(layer) {

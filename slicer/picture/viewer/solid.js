@@ -9,6 +9,8 @@
 //
 // Supports are a body of their own, whose tips the part hides: to show or hide
 // them makes nothing anew.
+//
+// Another part is made while the one before is shown, and then takes its place.
 
 const kFirst = {finest: 1 / 1000, corners: 12000};  // the finest bends, of the
 const kFull = {finest: 1 / 4000, corners: 150000};  // part's size; and of all layers
@@ -453,15 +455,18 @@ class PlateMesh {
   }
 }
 
-// Runs what yields between its steps while the page has nothing else to do.
-async function runInIdleTime(steps) {
+// Runs what yields between its steps while the page has nothing else to do, as long
+// as isWanted(). Returns whether all has run.
+async function runInIdleTime(steps, isWanted) {
   let end = 0;
   for (const _ of steps) {
     if (performance.now() < end) continue;
     await new Promise((resolve) => window.requestIdleCallback ?
       requestIdleCallback(resolve, {timeout: 100}) : setTimeout(resolve));
+    if (!isWanted()) return false;
     end = performance.now() + kPatience;
   }
+  return true;
 }
 
 const kVertexShader = `#version 300 es
@@ -546,9 +551,13 @@ function rgbOf(name) {
 }
 
 class Solid {
-  constructor(canvas, part) {
+  constructor(canvas) {
     this.canvas = canvas;
-    this.part = part;
+    this.gl = null;
+    this.wanted = null;  // the part that is made or shown
+    this.part = null;    // the part that is shown, and what is drawn of it
+    this.bodies = [];
+    this.marks = null;
     this.reset();
   }
 
@@ -558,45 +567,71 @@ class Solid {
     this.zoomed = 1;
   }
 
-  // Makes what is drawn, a rough solid first where the full one takes long, and
-  // calls draw() with each. Throws where there is no WebGL.
-  async open(draw) {
+  // Makes what is drawn of a part, a rough solid first where the full one takes
+  // long, and calls draw() with each. Until the first is made, the part before is
+  // shown. Returns false where another part came meanwhile, and throws where there
+  // is no WebGL.
+  async show(part, draw) {
+    this.wanted = part;
+    this.open();
+    const bodies = this.bodiesOf(part);
+    const full = bodies.map((body) => new PlateMesh(body, kFull));
+    const corners = full.reduce((sum, mesh) => sum + mesh.corners, 0);
+    const rough = corners > 2 * kFirst.corners ?
+      bodies.map((body) => new PlateMesh(body, kFirst)) : [];
+    for (const meshes of [rough, full].filter(({length}) => length > 0)) {
+      for (const mesh of meshes) {
+        if (!await runInIdleTime(mesh.build(), () => this.wanted === part)) return false;
+      }
+      if (this.wanted !== part) return false;
+      if (this.part !== part) this.take(part, bodies);
+      bodies.forEach((body, i) => this.takeMesh(body, meshes[i]));
+      draw();
+    }
+    return true;
+  }
+
+  open() {
+    if (this.gl) return;
     const gl = this.canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
     if (!gl) throw new Error("The solid needs WebGL 2: this browser has no WebGL 2, or it is turned off.");
     this.lit = this.program(gl, kFragmentShader);
     this.flat = this.program(gl, kFlatShader);
-    this.bodies = this.bodiesOf(gl);
     this.outline = this.corners(gl);
-    this.marks = this.corners(gl);
-    this.fill(gl, this.marks, this.markPlaces());
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     this.gl = gl;
-    const full = this.bodies.map((body) => new PlateMesh(body, kFull));
-    const corners = full.reduce((sum, mesh) => sum + mesh.corners, 0);
-    const rough = corners > 2 * kFirst.corners ?
-      this.bodies.map((body) => new PlateMesh(body, kFirst)) : [];
-    for (const meshes of [rough, full]) {
-      for (const [i, mesh] of meshes.entries()) {
-        await runInIdleTime(mesh.build());
-        const body = this.bodies[i];
-        body.mesh = mesh;
-        body.cut = null;
-        this.fillQuads(gl, body.surface, mesh.quads);
-        draw();
-      }
+  }
+
+  // Shows another part from now on, and frees what was made of the one before.
+  take(part, bodies) {
+    const {gl} = this;
+    for (const body of this.bodies) [body.surface, body.section].forEach((old) => this.free(old));
+    if (this.marks) this.free(this.marks);
+    this.part = part;
+    this.bodies = bodies;
+    for (const body of bodies) {
+      body.surface = this.corners(gl, true);
+      body.section = this.corners(gl, true);
     }
+    this.marks = this.corners(gl);
+    this.fill(gl, this.marks, this.markPlaces());
+  }
+
+  takeMesh(body, mesh) {
+    body.mesh = mesh;
+    body.cut = null;
+    this.fillQuads(this.gl, body.surface, mesh.quads);
   }
 
   // The part, what of it has a color, and the supports if there are any: layers in
   // one colour, which is in linear light. Where several are at one place, that with
   // the least depth is seen.
-  bodiesOf(gl) {
-    const {partLayers, supports, colored, size} = this.part;
+  bodiesOf({partLayers, supports, colored, size}) {
     const bodyOf = (layers, depth, shine, color) => ({
       layers, size, depth, shine, color, mesh: null, cut: null, sectionQuads: null,
-      surface: this.corners(gl, true), section: this.corners(gl, true),
+      surface: null, section: null,
     });
     const linear = (rgb) => rgbOf(rgb).map((value) => value ** kGamma);
     return [bodyOf(partLayers, 1, 1, () => kGold),
@@ -630,8 +665,16 @@ class Solid {
       gl.vertexAttribPointer(at, 3, gl.FLOAT, false, isLit ? 24 : 12, 12 * at);
       gl.enableVertexAttribArray(at);
     }
-    if (isLit) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    corners.indices = isLit ? gl.createBuffer() : null;
+    if (isLit) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners.indices);
     return corners;
+  }
+
+  free(corners) {
+    const {gl} = this;
+    gl.deleteBuffer(corners.buffer);
+    gl.deleteBuffer(corners.indices);
+    gl.deleteVertexArray(corners);
   }
 
   fill(gl, corners, data) {
@@ -660,8 +703,9 @@ class Solid {
 
   // Brings a place to the side of the viewer, who looks from above: the cut at
   // its layer leaves nothing between. The whole solid is in the picture.
-  turnTo([x, y]) {
-    const [width, depth] = this.part.size;
+  //
+  // size  of the part
+  turnTo([x, y], [width, depth]) {
     this.yaw = -Math.PI / 2 - Math.atan2(y - depth / 2, x - width / 2);
     this.pitch = .6;
     this.zoomed = Math.min(this.zoomed, 1);
@@ -685,15 +729,16 @@ class Solid {
     return distance;
   }
 
-  // Draws the part up to a layer, or all of it with that layer's outline.
+  // Draws the part up to the layer at a height above the bed, or all of it with
+  // that layer's outline.
   //
-  // state: {index, marks, supports}
-  draw(state, isWhole) {
+  // state: {marks, supports}
+  draw(state, height, isWhole) {
     const {gl, canvas, part} = this;
-    const {index} = state;
-    const bodies = (this.bodies || []).filter(
-        ({mesh, depth}) => mesh && (state.supports || depth !== kSupportDepth));
+    const bodies = this.bodies.filter(
+        ({depth}) => state.supports || depth !== kSupportDepth);
     if (bodies.length === 0) return;
+    const index = layerAt(part.layers, height);
     const ratio = window.devicePixelRatio || 1;
     canvas.width = Math.round(canvas.clientWidth * ratio);
     canvas.height = Math.round(canvas.clientHeight * ratio);

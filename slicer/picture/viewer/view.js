@@ -46,9 +46,11 @@ function prepare(canvas) {
   return {context, width, height, ratio};
 }
 
-// Where millimetres of the part lie on the canvas; y up there, down here.
+// Where millimetres of the part lie on the canvas; y up there, down here. Places
+// are counted from `low`, the part's lower left corner.
 class View {
   constructor() {
+    this.low = [0, 0];
     this.scale = 1;  // pixels per mm
     this.x = 0;      // of the part's corner
     this.y = 0;
@@ -60,6 +62,19 @@ class View {
 
   toPart([x, y]) {
     return [(x - this.x) / this.scale, (this.y - y) / this.scale];
+  }
+
+  // Counts places from another corner; what is on the page stays there.
+  countFrom(low) {
+    this.x += (low[0] - this.low[0]) * this.scale;
+    this.y -= (low[1] - this.low[1]) * this.scale;
+    this.low = low;
+  }
+
+  // Whether all of a box from the origin is on the canvas.
+  hasAll([width, height], [toRight, toFoot]) {
+    return this.x >= 0 && this.y <= toFoot && this.x + width * this.scale <= toRight &&
+      this.y - height * this.scale >= 0;
   }
 
   // Shows the box in the free area of the canvas.
@@ -91,19 +106,28 @@ function findingsOf(part) {
 }
 
 class Drawing {
-  constructor(canvas, part, view) {
+  constructor(canvas, view) {
     this.canvas = canvas;
-    this.part = part;
     this.view = view;
+    this.part = null;
   }
 
-  // state: {index, below, marks, supports, pointer, ends: [{place, index}]}
+  // state: {index, early, below, marks, supports, pointer, ends}; early is a layer
+  // by itself, shown instead of the part's; ends are [x, y, z] from the bed's origin.
   draw(state) {
     const sheet = prepare(this.canvas);
-    const {part} = this;
     sheet.context.fillStyle = color("field");
     sheet.context.fillRect(0, 0, sheet.width, sheet.height);
     this.drawGrid(sheet);
+    if (state.early) this.drawLayer(sheet, state.early.layer, "solid", "outline");
+    else this.drawPart(sheet, state);
+    this.drawMeasure(sheet, state);
+    this.drawRulers(sheet, state.pointer);
+    this.drawScale(sheet);
+  }
+
+  drawPart(sheet, state) {
+    const {part} = this;
     if (state.below && state.index > 0) {
       this.strokePath(sheet, shownLayers(part, state)[state.index - 1], "faint", [4, 3]);
     }
@@ -113,9 +137,6 @@ class Drawing {
     }
     this.drawLayer(sheet, part.partLayers[state.index], "solid", "outline");
     if (state.marks) this.drawMarks(sheet, state.index);
-    this.drawMeasure(sheet, state);
-    this.drawRulers(sheet, state.pointer);
-    this.drawScale(sheet);
   }
 
   inPart({context, ratio}) {
@@ -146,12 +167,12 @@ class Drawing {
 
   // Calls visit(page, mm) for the lines of a ruler along one axis (0: x, 1: y).
   forTicks(axis, step, length, visit) {
-    const a = this.view.toPart([0, 0])[axis] + this.part.low[axis];
-    const b = this.view.toPart([length, length])[axis] + this.part.low[axis];
+    const a = this.view.toPart([0, 0])[axis] + this.view.low[axis];
+    const b = this.view.toPart([length, length])[axis] + this.view.low[axis];
     const first = Math.ceil(Math.min(a, b) / step);
     const last = Math.floor(Math.max(a, b) / step);
     for (let i = first; i <= last; ++i) {
-      const place = i * step - this.part.low[axis];
+      const place = i * step - this.view.low[axis];
       visit(this.view.toPage([place, place])[axis], i * step);
     }
   }
@@ -209,7 +230,8 @@ class Drawing {
 
   drawMeasure({context}, state) {
     if (state.ends.length === 0) return;
-    const ends = state.ends.map((end) => this.view.toPage(end.place));
+    const [left, foot] = this.view.low;
+    const ends = state.ends.map(([x, y]) => this.view.toPage([x - left, y - foot]));
     context.strokeStyle = context.fillStyle = color("measure");
     context.lineWidth = 2;
     context.beginPath();
@@ -287,14 +309,14 @@ class Drawing {
 // part's before those of part and supports; below, what was found from which
 // layer to which, and the layers with thin places.
 class Plot {
-  constructor(canvas, part) {
+  constructor(canvas) {
     this.canvas = canvas;
-    this.part = part;
+    this.part = null;
   }
 
   draw(state) {
     const {context, width, height} = prepare(this.canvas);
-    const {index} = state;
+    const {early} = state;
     const layers = shownLayers(this.part, state);
     const greatest = Math.max(...layers.map((layer) => layer.area), 1e-9);
     const foot = height - (this.part.found ? 13 : 3);
@@ -326,8 +348,9 @@ class Plot {
         if (layer.marks.some((mark) => mark.kind === kind)) bar(kind, i, i, 1);
       }
     });
-    const x = xOf(index);
-    const y = yOf(layers[index]);
+    const x = xOf(early ? early.index * (layers.length - 1) / Math.max(1, early.count - 1) :
+      state.index);
+    const y = Math.max(4, yOf(early ? early.layer : layers[state.index]));
     context.fillStyle = color("accent");
     context.fillRect(x - 1, 0, 2, foot);
     context.beginPath();

@@ -5,8 +5,7 @@
 
 namespace lamina::slicer {
 
-// It has one each of {{title}}, {{style}}, {{script}}, {{facts}} and
-// {{contours}}.
+// It has one each of {{title}}, {{head}}, {{tools}}, {{panel}} and {{tail}}.
 extern const std::string_view kViewerPage;
 extern const std::string_view kViewerStyle;
 extern const std::string_view kViewerScript;
