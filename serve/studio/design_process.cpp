@@ -234,8 +234,8 @@ class DesignLoop {
 
   // Whether the design as it was read is that of the request.
   bool can_go_on(const compiler::Request& request) const {
-    return design_.is_read && !request.supports && !request.sprues &&
-           request.geometry.searched_direction == 0;
+    return !options_.reads_anew && design_.is_read && !request.supports &&
+           !request.sprues && request.geometry.searched_direction == 0;
   }
 
   static void make(compiler::Compilation& compilation, const Choice& choice,

@@ -31,6 +31,8 @@ class DesignProcess {
     TemporaryFiles& temporary_files;
     std::size_t evaluation_stack = 0;  // bytes
     unsigned most_seconds = 0;         // of processor time, for one run
+    // Whether each run reads the design anew. It sends the same.
+    bool reads_anew = false;
   };
 
   // Throws as ChildProcess does.

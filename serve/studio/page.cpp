@@ -6,12 +6,12 @@
 namespace lamina::studio {
 
 std::string page_html() {
-  return slicer::viewer_html(
-      {.title = "lamina studio",
-       .head = R"(<link rel="stylesheet" href="/studio.css">)",
-       .tools = std::string(kPageTools),
-       .panel = std::string(kPagePanel),
-       .tail = R"(<script src="/studio.js"></script>)"});
+  return slicer::viewer_html({.title = "lamina studio",
+                              .head = R"(<link rel="icon" href="data:,">
+<link rel="stylesheet" href="/studio.css">)",
+                              .tools = kPageTools,
+                              .panel = kPagePanel,
+                              .tail = R"(<script src="/studio.js"></script>)"});
 }
 
 std::string page_style() {
