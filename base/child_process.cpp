@@ -189,11 +189,16 @@ ChildProcess::ChildProcess(const std::function<void(const ChildOutput&)>& work,
     : page_(std::make_unique<SharedPage>()),
       most_seconds_(processor_seconds(most_seconds)) {
   const pid_t parent = ::getpid();
-  const std::lock_guard lock(pipe_mutex);
+  std::unique_lock pipe_lock(pipe_mutex);
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) fail_without_process(errno);
+  // Locked by this thread, and so unlocked in the copy, which may have children
+  // of its own.
+  std::unique_lock children_lock(children().mutex);
   process_ = ::fork();
+  children_lock.unlock();
   if (process_ == 0) {
+    pipe_lock.unlock();
     child_bytes = page_->bytes();
     run_child(parent, ends[1], most_seconds_, work);
   }

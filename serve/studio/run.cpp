@@ -219,7 +219,9 @@ void write_source(compiler::Compilation& c, const Choice& choice, int output) {
       send_answer(output, 409, R"({"messages":[]})");
       return true;
     }
-    c.file_access().run_files()->begin_again(c.file_access());
+    if (RunFiles* const files = c.file_access().run_files()) {
+      files->begin_again(c.file_access());
+    }
     compiler::write_file(path, edit.text, c.temporary_files);
     send_answer(output, 200, text_of({{"written", title_of(c)}}));
     return true;
