@@ -8,7 +8,7 @@ LAMINA_BUILD_PACKAGES=(
   nlohmann-json3-dev libtbb-dev libpng-dev
   libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
   libminizip-dev libpugixml-dev libxxhash-dev zlib1g-dev libopenmesh-dev
-  libnanoflann-dev
+  libnanoflann-dev libboost-dev
   libegl-dev libgl-dev libosmesa6-dev
 )
 

@@ -8,18 +8,24 @@
 //
 // What is refused before the handler sees it, and by which status:
 //
-//   400  what is not HTTP/1.1, two Content-Lengths, a body of GET
-//   403  a Host that is not this server's (DNS rebinding), an Origin that is not
-//        (cross-site)
+//   400  what is not HTTP/1.1: other versions, other targets than "/…" in
+//        visible ASCII, control characters, folded lines; no Host or two, two
+//        Content-Lengths, a body of GET
+//   403  a Host other than 127.0.0.1:PORT and localhost:PORT (DNS rebinding);
+//        an Origin other than "http://" and one of these, a Sec-Fetch-Site
+//        other than same-origin and none, a POST without Origin (cross-site)
 //   405  methods other than GET, HEAD and POST
 //   408  headers or a body that take longer than their limit
 //   413  a body longer than the limit
 //   414  a request line longer than the limit
+//   417  Expect
 //   431  headers longer than the limit, or more of them
 //   501  Transfer-Encoding
 //
-// After a refusal the connection is closed. More connections than the limit are
-// closed as they come.
+// Browsers send an Origin with each POST, so the rule for it costs none of them
+// anything. After a refusal the connection is closed. More connections than the
+// limit are closed as they come. Paths are not made shorter: "/../x" is the
+// handler's to refuse.
 
 #include <chrono>
 #include <cstddef>
@@ -42,19 +48,20 @@ struct Limits {
   std::size_t headers = 64;
   std::size_t body_bytes = 64 << 10;
   std::chrono::milliseconds header_time{5000};  // from the connection, or from
-                                                // the answer before, if it has
-                                                // sent a byte since
+                                                // the first byte of a later
+                                                // request
   std::chrono::milliseconds body_time{5000};
-  std::chrono::milliseconds idle_time{60000};  // between two requests
+  // Between two requests, and while the peer takes nothing of an answer.
+  std::chrono::milliseconds idle_time{60000};
   std::size_t connections = 64;
   // Of one answer that its reader does not take; then it is cut off.
   std::size_t queued_bytes = 32 << 20;
 };
 
 struct Request {
-  std::string method;  // "GET" also for HEAD, "POST"
-  std::string path;    // as it came, without the query: "/file/5"
-  std::string query;   // behind the '?', as it came
+  std::string method;        // "GET" also for HEAD, "POST"
+  std::string path;          // as it came, without the query: "/file/5"
+  std::string query;         // behind the '?', as it came
   std::string content_type;  // without parameters, lower case
   std::string body;
   std::vector<std::pair<std::string, std::string>> cookies;
@@ -72,14 +79,19 @@ struct Response {
   unsigned status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string body;
-  // Sent instead of the body, as it is at that time, and may be of any size.
+  // A path. The file is sent instead of the body, as it is at that time, and
+  // may be of any size; 404 where it cannot be opened.
   std::string file;
   // Beside those that every answer has: security policy, no caching, length.
+  // Where a name or value cannot be sent (line feeds in it), the answer is 500.
   std::vector<std::pair<std::string, std::string>> headers;
 };
 
-// The answer to one request. It may come later. One that is given up without an
-// answer is answered by 500.
+// The answer to one request. It may come later, also when the connection has
+// ended. One that is given up without an answer is answered by 500; one that is
+// given up after begin() ends with what has been written.
+//
+// A peer that has closed its side counts as gone.
 class Reply {
  public:
   virtual ~Reply() = default;
@@ -94,25 +106,30 @@ class Reply {
   virtual void write(std::string bytes) = 0;
   // Whether the connection still lives.
   virtual bool is_open() const = 0;
-  // Calls once the connection has ended, however it did; at once if it has.
+  // Calls once the connection has ended, however it did; at once if it has. Not
+  // if the answer is sent and the next request has come.
   virtual void on_close(std::function<void()> call) = 0;
 };
 
 using Handler =
     std::function<void(const Request& request, std::shared_ptr<Reply> reply)>;
 
+// Processes that the program forks may keep copies of its descriptors: the
+// connections end all the same.
 class Server {
  public:
+  // Connections end at once, and no call is made.
   virtual ~Server() = default;
 
-  // Listens on the loopback address 127.0.0.1. Returns the port, or 0 with errno
-  // where that is not possible.
+  // Listens on the loopback address 127.0.0.1. Returns the port, or 0 with
+  // errno where that is not possible.
   //
   // port  0: any that is free
   virtual std::uint16_t listen(std::uint16_t port) = 0;
 
   // Calls whenever a descriptor can be read, or has come to its end, until
-  // forget(). The descriptor stays the caller's, who closes it after forget().
+  // forget(). The descriptor (not of a file on a disk) stays the caller's, who
+  // closes it after forget().
   virtual void on_readable(int descriptor, std::function<void()> call) = 0;
   virtual void forget(int descriptor) = 0;
 
@@ -125,6 +142,10 @@ class Server {
   virtual void run(const Handler& handler) = 0;
   virtual void stop() = 0;
 };
+
+// The module that holds Boost.Beast.
+inline constexpr Module kModule{"lamina_http.so", "lamina_make_http_engine",
+                                "serving", ""};
 
 // Opens the module. Throws GeometryError where it is missing.
 std::unique_ptr<Server> make_server(const Limits& limits,

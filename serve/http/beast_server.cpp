@@ -1,0 +1,729 @@
+// The module lamina_http.so: connections, by Boost.Beast and Boost.Asio.
+//
+// A connection is in one state at a time:
+//
+//    kHead ──▶ kBody ──▶ kAnswering ──▶ kHead          (the next request)
+//      │         │           ├───▶ kStreaming          (begin())
+//      └─────────┴───────────┴───────────┴──▶ kLingering ──▶ kClosed
+//
+// Memory has a bound: a connection reads a head up to its limit and judges it
+// before it reads the body; while an answer is under way it reads nothing. One
+// timer for each connection covers the state that it is in.
+//
+// To close a connection while bytes of the peer are unread would reset it, and
+// the peer might lose the answer. So the server ends its own side, drops what
+// comes for a moment (kLingering), and closes then.
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <deque>
+#include <exception>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/file_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/serializer.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "serve/http/detail/engine.h"
+#include "serve/http/detail/rules.h"
+
+namespace lamina::http {
+namespace {
+
+namespace net = boost::asio;
+namespace bh = boost::beast::http;
+using boost::beast::file_mode;
+using net::ip::tcp;
+using Error = boost::system::error_code;
+using std::chrono::milliseconds;
+
+// How long a peer may send on after the last answer.
+constexpr milliseconds kLingerTime{2000};
+
+// How long to wait where no connection can be accepted (no descriptor is free).
+constexpr milliseconds kAcceptPause{100};
+
+class Connection;
+
+// What connections share.
+class Hub {
+ public:
+  virtual ~Hub() = default;
+  virtual const Limits& limits() const = 0;
+  virtual const Rules& rules() const = 0;
+  virtual void handle(const Request& request,
+                      std::unique_ptr<Answer> answer) = 0;
+  // Makes a call from run(), not from within another.
+  virtual void post(std::function<void()> call) = 0;
+  virtual void remove(const std::shared_ptr<Connection>& connection) = 0;
+  // There is no memory: run() ends.
+  virtual void fail() noexcept = 0;
+};
+
+Refusal refusal_of(const Error& error) {
+  if (error == bh::error::body_limit) return {413, "The body is too long"};
+  return {400, "This is not HTTP/1.1"};
+}
+
+template <typename Fields>
+Head head_of(const Fields& message, std::string_view bytes) {
+  Head head;
+  head.bytes = bytes;
+  head.method = message.method_string();
+  head.target = message.target();
+  head.version = message.version();
+  for (const auto& field : message) {
+    head.fields.emplace_back(field.name_string(), field.value());
+  }
+  return head;
+}
+
+Response plain(unsigned status, const std::string& text) {
+  Response response;
+  response.status = status;
+  response.body = text + "\n";
+  return response;
+}
+
+bool may_have_body(unsigned status) { return status != 204 && status != 304; }
+
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(Hub& hub, tcp::socket socket)
+      : hub_(&hub), limits_(hub.limits()), wire_(std::move(socket)) {}
+
+  void start() {
+    arm(limits_.header_time);
+    take_request();
+  }
+
+  bool is_open() const { return wire_.has_value(); }
+
+  void send(Response response) {
+    if (!is_open()) return;
+    if (!is_sendable(response)) {
+      response = plain(500, "The answer cannot be sent");
+    }
+    if (!response.file.empty()) return send_file(std::move(response));
+    const std::size_t size = response.body.size();
+    if (is_head_ || !may_have_body(response.status)) {
+      auto message = message_of<bh::empty_body>(response);
+      if (may_have_body(response.status)) message.content_length(size);
+      return write(std::move(message));
+    }
+    auto message = message_of<bh::string_body>(response);
+    message.body() = std::move(response.body);
+    message.content_length(size);
+    write(std::move(message));
+  }
+
+  void begin(const Response& response) {
+    if (!is_open()) return;
+    if (!is_sendable(response)) {
+      return send(plain(500, "The answer cannot be sent"));
+    }
+    keeps_alive_ = false;
+    auto message = message_of<bh::empty_body>(response);
+    // A HEAD has its answer with that.
+    if (!is_head_) {
+      state_ = State::kStreaming;
+      is_writing_ = true;
+    }
+    write(std::move(message));
+  }
+
+  void write_more(std::string bytes) {
+    if (state_ != State::kStreaming || is_ending_) return;
+    queued_ += bytes.size();
+    if (queued_ > limits_.queued_bytes) return close();
+    queue_.push_back(std::move(bytes));
+    if (!is_writing_) flush();
+  }
+
+  // Ends an answer that has begun.
+  void end_stream() {
+    if (state_ != State::kStreaming) return;
+    is_ending_ = true;
+    if (!is_writing_) flush();
+  }
+
+  // While it is open.
+  void on_close(std::function<void()> call) {
+    closings_.push_back(std::move(call));
+  }
+
+  void close() {
+    if (!is_open()) return;
+    const auto self = shared_from_this();
+    ++deadline_;
+    // Children that were forked meanwhile may have copies of the descriptor.
+    // release() takes it out of the reactor, and shutdown() ends the connection
+    // for all copies.
+    Error ignored;
+    const int descriptor = wire_->socket.release(ignored);
+    ::shutdown(descriptor, SHUT_RDWR);
+    ::close(descriptor);
+    wire_.reset();
+    state_ = State::kClosed;
+    input_.clear();
+    queue_.clear();
+    for (auto& call : std::exchange(closings_, {})) {
+      hub_->post(std::move(call));
+    }
+    std::exchange(hub_, nullptr)->remove(self);
+  }
+
+  // Closes, as the server goes: makes no call.
+  void abandon() {
+    closings_.clear();
+    close();
+  }
+
+  void fail() noexcept {
+    if (hub_ != nullptr) hub_->fail();
+  }
+
+ private:
+  enum class State {
+    kHead,
+    kBody,
+    kAnswering,
+    kStreaming,
+    kLingering,
+    kClosed
+  };
+
+  // What a connection has while it is open.
+  struct Wire {
+    explicit Wire(tcp::socket open)
+        : socket(std::move(open)), timer(socket.get_executor()) {}
+    tcp::socket socket;
+    net::steady_timer timer;
+  };
+
+  template <typename Body>
+  struct Outgoing {
+    explicit Outgoing(bh::response<Body> whole)
+        : message(std::move(whole)), serializer(message) {}
+    bh::response<Body> message;
+    bh::response_serializer<Body> serializer;
+  };
+
+  // --- Time -----------------------------------------------------------------
+
+  void arm(milliseconds time) {
+    const std::uint64_t number = ++deadline_;
+    wire_->timer.expires_after(time);
+    wire_->timer.async_wait(
+        [self = shared_from_this(), number](const Error& error) {
+          if (!error && number == self->deadline_) self->time_out();
+        });
+  }
+
+  void disarm() {
+    ++deadline_;
+    wire_->timer.cancel();
+  }
+
+  void time_out() {
+    const bool is_request =
+        state_ == State::kBody || (state_ == State::kHead && !input_.empty());
+    if (!is_request) return close();
+    // Of two reads that wait, the reactor may forget the second.
+    Error ignored;
+    wire_->socket.cancel(ignored);
+    refuse({408, "The request takes too long"});
+  }
+
+  // --- Requests -------------------------------------------------------------
+
+  // Takes the next one, of which some may have come already.
+  void take_request() {
+    state_ = State::kHead;
+    closings_.clear();
+    parser_.emplace();
+    parser_->header_limit(static_cast<std::uint32_t>(limits_.header_bytes));
+    parser_->body_limit(limits_.body_bytes);
+    parsed_ = 0;
+    if (input_.empty()) {
+      read_more(limits_.header_bytes, &Connection::take_head);
+    } else {
+      take_head();
+    }
+  }
+
+  void take_head() {
+    if (is_idle_) arm(limits_.header_time);
+    is_idle_ = false;
+    if (const auto refusal = hub_->rules().judge_line(input_)) {
+      return refuse(*refusal);
+    }
+    Error error;
+    parsed_ += parser_->put(
+        net::buffer(input_.data() + parsed_, input_.size() - parsed_), error);
+    if (parser_->is_header_done() && !error) return take_whole_head();
+    if (const auto refusal = hub_->rules().judge_length(input_)) {
+      return refuse(*refusal);
+    }
+    if (error && error != bh::error::need_more) {
+      return refuse(refusal_of(error));
+    }
+    read_more(limits_.header_bytes - input_.size(), &Connection::take_head);
+  }
+
+  void take_whole_head() {
+    const Head head =
+        head_of(parser_->get(), std::string_view(input_).substr(0, parsed_));
+    is_head_ = head.method == "HEAD";
+    if (const auto refusal = hub_->rules().judge(head)) return refuse(*refusal);
+    request_ = request_of(head);
+    keeps_alive_ = parser_->keep_alive();
+    body_size_ = parser_->content_length().value_or(0);
+    input_.erase(0, parsed_);
+    state_ = State::kBody;
+    arm(limits_.body_time);
+    take_body();
+  }
+
+  void take_body() {
+    const std::size_t size =
+        std::min(input_.size(), body_size_ - request_.body.size());
+    request_.body.append(input_, 0, size);
+    input_.erase(0, size);
+    const std::size_t missing = body_size_ - request_.body.size();
+    if (missing > 0) return read_more(missing, &Connection::take_body);
+    disarm();
+    hand_over();
+  }
+
+  void read_more(std::size_t most, void (Connection::*next)()) {
+    const State state = state_;
+    wire_->socket.async_read_some(
+        net::buffer(chunk_, most), [self = shared_from_this(), state, next](
+                                       const Error& error, std::size_t size) {
+          // It may have been refused meanwhile.
+          if (self->state_ != state) return;
+          if (error) return self->close();
+          self->input_.append(self->chunk_.data(), size);
+          (self.get()->*next)();
+        });
+  }
+
+  void hand_over();
+
+  // Looks for the peer's end while nothing is read.
+  void watch_peer() {
+    if (is_watching_ || !is_open()) return;
+    is_watching_ = true;
+    wire_->socket.async_wait(tcp::socket::wait_read,
+                             [self = shared_from_this()](const Error& error) {
+                               self->is_watching_ = false;
+                               if (!error) self->look_at_peer();
+                             });
+  }
+
+  void look_at_peer() {
+    if (state_ != State::kAnswering && state_ != State::kStreaming) return;
+    std::array<char, 1> byte{};
+    Error error;
+    wire_->socket.receive(net::buffer(byte), tcp::socket::message_peek, error);
+    if (error == net::error::would_block) return watch_peer();
+    // A next request can wait, but not behind a stream.
+    if (error || state_ == State::kStreaming) close();
+  }
+
+  // --- Answers --------------------------------------------------------------
+
+  void refuse(const Refusal& refusal) {
+    state_ = State::kAnswering;
+    keeps_alive_ = false;
+    Response response = plain(refusal.status, refusal.reason);
+    if (refusal.status == 405) {
+      response.headers.emplace_back("Allow", "GET, HEAD, POST");
+    }
+    send(std::move(response));
+  }
+
+  void send_file(Response response) {
+    bh::file_body::value_type file;
+    Error error;
+    file.open(response.file.c_str(), file_mode::scan, error);
+    if (error) return send(plain(404, "The file is gone"));
+    const std::uint64_t size = file.size();
+    if (is_head_) {
+      auto message = message_of<bh::empty_body>(response);
+      message.content_length(size);
+      return write(std::move(message));
+    }
+    auto message = message_of<bh::file_body>(response);
+    message.body() = std::move(file);
+    message.content_length(size);
+    write(std::move(message));
+  }
+
+  // The head of an answer. What the server itself says of it counts.
+  template <typename Body>
+  bh::response<Body> message_of(const Response& response) const {
+    bh::response<Body> message;
+    message.version(11);
+    message.result(response.status);
+    for (const auto& [name, value] : response.headers) {
+      message.insert(name, value);
+    }
+    message.erase(bh::field::transfer_encoding);
+    message.erase(bh::field::content_length);
+    message.erase(bh::field::connection);
+    message.keep_alive(keeps_alive_);
+    message.set(bh::field::content_type, response.type);
+    for (const auto& [name, value] : headers_of_all()) message.set(name, value);
+    return message;
+  }
+
+  template <typename Body>
+  void write(bh::response<Body> message) {
+    write_some(std::make_shared<Outgoing<Body>>(std::move(message)));
+  }
+
+  template <typename Body>
+  void write_some(std::shared_ptr<Outgoing<Body>> outgoing) {
+    arm(limits_.idle_time);
+    auto& serializer = outgoing->serializer;
+    bh::async_write_some(
+        wire_->socket, serializer,
+        [self = shared_from_this(), outgoing = std::move(outgoing)](
+            const Error& error, std::size_t) mutable {
+          if (!self->is_open()) return;
+          if (error) return self->close();
+          if (outgoing->serializer.is_done()) return self->finish_write();
+          self->write_some(std::move(outgoing));
+        });
+  }
+
+  void finish_write() {
+    disarm();
+    if (state_ == State::kStreaming) return flush();
+    if (!keeps_alive_) return linger();
+    is_idle_ = true;
+    arm(limits_.idle_time);
+    take_request();
+  }
+
+  // Writes what is queued.
+  void flush() {
+    is_writing_ = !queue_.empty();
+    if (!is_writing_) {
+      disarm();
+      return is_ending_ ? linger() : watch_peer();
+    }
+    arm(limits_.idle_time);
+    wire_->socket.async_write_some(
+        net::buffer(queue_.front().data() + written_,
+                    queue_.front().size() - written_),
+        [self = shared_from_this()](const Error& error, std::size_t size) {
+          if (!self->is_open()) return;
+          if (error) return self->close();
+          self->drop_written(size);
+          self->flush();
+        });
+  }
+
+  void drop_written(std::size_t size) {
+    written_ += size;
+    queued_ -= size;
+    if (written_ < queue_.front().size()) return;
+    queue_.pop_front();
+    written_ = 0;
+  }
+
+  // --- The end --------------------------------------------------------------
+
+  void linger() {
+    state_ = State::kLingering;
+    Error ignored;
+    wire_->socket.shutdown(tcp::socket::shutdown_send, ignored);
+    arm(kLingerTime);
+    drop_input();
+  }
+
+  void drop_input() {
+    wire_->socket.async_read_some(
+        net::buffer(chunk_),
+        [self = shared_from_this()](const Error& error, std::size_t) {
+          if (!self->is_open()) return;
+          if (error) return self->close();
+          self->drop_input();
+        });
+  }
+
+  Hub* hub_;  // null once it is closed
+  const Limits limits_;
+  std::optional<Wire> wire_;  // none once it is closed
+  State state_ = State::kHead;
+  std::uint64_t deadline_ = 0;  // number of the timer's wait that counts
+  bool is_idle_ = false;        // between two requests
+  bool is_watching_ = false;
+
+  // The request. No more has been read than its limits allow.
+  std::array<char, 4096> chunk_{};
+  std::string input_;
+  std::optional<bh::request_parser<bh::empty_body>> parser_;
+  std::size_t parsed_ = 0;  // bytes of the input
+  Request request_;
+  std::size_t body_size_ = 0;
+
+  // The answer.
+  bool is_head_ = false;  // to HEAD
+  bool keeps_alive_ = false;
+  std::deque<std::string> queue_;
+  std::size_t queued_ = 0;   // bytes
+  std::size_t written_ = 0;  // of the first
+  bool is_writing_ = false;
+  bool is_ending_ = false;
+  std::vector<std::function<void()>> closings_;
+};
+
+class ConnectionAnswer final : public Answer {
+ public:
+  explicit ConnectionAnswer(std::shared_ptr<Connection> connection)
+      : connection_(std::move(connection)) {}
+  ~ConnectionAnswer() override {
+    if (has_begun_) guard([&] { connection_->end_stream(); });
+    if (!is_answered_) send(plain(500, "There is no answer"));
+  }
+  ConnectionAnswer(const ConnectionAnswer&) = delete;
+  ConnectionAnswer& operator=(const ConnectionAnswer&) = delete;
+
+  void send(Response response) noexcept override {
+    if (std::exchange(is_answered_, true)) return;
+    guard([&] { connection_->send(std::move(response)); });
+  }
+  void begin(Response response) noexcept override {
+    if (std::exchange(is_answered_, true)) return;
+    has_begun_ = true;
+    guard([&] { connection_->begin(response); });
+  }
+  void write(std::string bytes) noexcept override {
+    if (!has_begun_) return;
+    guard([&] { connection_->write_more(std::move(bytes)); });
+  }
+  bool is_open() const noexcept override { return connection_->is_open(); }
+  void on_close(std::function<void()> call) noexcept override {
+    if (!is_open()) return;
+    guard([&] { connection_->on_close(std::move(call)); });
+  }
+
+ private:
+  template <typename Work>
+  void guard(const Work& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      connection_->fail();
+    }
+  }
+
+  std::shared_ptr<Connection> connection_;
+  bool is_answered_ = false;
+  bool has_begun_ = false;
+};
+
+void Connection::hand_over() {
+  state_ = State::kAnswering;
+  const Request request = std::exchange(request_, {});
+  hub_->handle(request, std::make_unique<ConnectionAnswer>(shared_from_this()));
+  watch_peer();
+}
+
+// A descriptor of the program's.
+struct Watch {
+  explicit Watch(net::io_context& context) : descriptor(context) {}
+  ~Watch() {
+    if (descriptor.is_open()) descriptor.release();
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  static void wait(const std::shared_ptr<Watch>& watch) {
+    watch->descriptor.async_wait(net::posix::stream_descriptor::wait_read,
+                                 [watch](const Error& error) {
+                                   if (error) return;
+                                   if (!watch->descriptor.is_open()) return;
+                                   watch->call();
+                                   if (watch->descriptor.is_open()) wait(watch);
+                                 });
+  }
+
+  net::posix::stream_descriptor descriptor;
+  std::function<void()> call;
+};
+
+class BeastEngine final : public Engine, private Hub {
+ public:
+  explicit BeastEngine(const Limits& limits)
+      : limits_(limits), rules_(limits, 0) {}
+
+  ~BeastEngine() override {
+    for (const auto& connection : std::exchange(connections_, {})) {
+      connection->abandon();
+    }
+    for (auto& [descriptor, watch] : watches_) watch->descriptor.release();
+    // Children that were forked meanwhile would go on listening.
+    if (acceptor_.is_open()) ::shutdown(acceptor_.native_handle(), SHUT_RDWR);
+  }
+  BeastEngine(const BeastEngine&) = delete;
+  BeastEngine& operator=(const BeastEngine&) = delete;
+
+  int listen(std::uint16_t& port) noexcept override {
+    return guard([&] { open_acceptor(port); });
+  }
+
+  int on_readable(int descriptor,
+                  std::function<void()> call) noexcept override {
+    return guard([&] {
+      const auto watch = std::make_shared<Watch>(context_);
+      watch->call = std::move(call);
+      watch->descriptor.assign(descriptor);
+      watches_[descriptor] = watch;
+      Watch::wait(watch);
+    });
+  }
+
+  void forget(int descriptor) noexcept override {
+    const auto found = watches_.find(descriptor);
+    if (found == watches_.end()) return;
+    found->second->descriptor.release();
+    watches_.erase(found);
+  }
+
+  int after(milliseconds time, std::function<void()> call) noexcept override {
+    return guard([&] {
+      const auto timer = std::make_shared<net::steady_timer>(context_, time);
+      timer->async_wait([timer, call = std::move(call)](const Error& error) {
+        if (!error) call();
+      });
+    });
+  }
+
+  int run(const AnswerHandler& handler) noexcept override {
+    has_failed_ = false;
+    handler_ = &handler;
+    const int error = guard([&] {
+      context_.restart();
+      context_.run();
+    });
+    return has_failed_ ? ENOMEM : error;
+  }
+
+  void stop() noexcept override { context_.stop(); }
+
+ private:
+  // Does it, and returns the errno of what it throws.
+  template <typename Work>
+  static int guard(const Work& work) noexcept {
+    try {
+      work();
+      return 0;
+    } catch (const std::bad_alloc&) {
+      return ENOMEM;
+    } catch (const boost::system::system_error& error) {
+      return error.code().value();
+    } catch (...) {
+      return EIO;
+    }
+  }
+
+  void open_acceptor(std::uint16_t& port) {
+    tcp::acceptor acceptor(
+        context_, tcp::endpoint(net::ip::address_v4::loopback(), port));
+    port = acceptor.local_endpoint().port();
+    rules_ = Rules(limits_, port);
+    acceptor_ = std::move(acceptor);
+    accept();
+  }
+
+  void accept() {
+    acceptor_.async_accept([this](const Error& error, tcp::socket socket) {
+      if (error == net::error::operation_aborted) return;
+      if (error) return accept_later();
+      if (connections_.size() < limits_.connections) add(std::move(socket));
+      accept();
+    });
+  }
+
+  void accept_later() {
+    pause_.expires_after(kAcceptPause);
+    pause_.async_wait([this](const Error& error) {
+      if (!error) accept();
+    });
+  }
+
+  void add(tcp::socket socket) {
+    Error ignored;
+    socket.non_blocking(true, ignored);
+    socket.set_option(tcp::no_delay(true), ignored);
+    Hub& hub = *this;
+    const auto connection =
+        std::make_shared<Connection>(hub, std::move(socket));
+    connections_.insert(connection);
+    connection->start();
+  }
+
+  const Limits& limits() const override { return limits_; }
+  const Rules& rules() const override { return rules_; }
+  void handle(const Request& request, std::unique_ptr<Answer> answer) override {
+    (*handler_)(request, std::move(answer));
+  }
+  void post(std::function<void()> call) override {
+    net::post(context_, std::move(call));
+  }
+  void remove(const std::shared_ptr<Connection>& connection) override {
+    connections_.erase(connection);
+  }
+  void fail() noexcept override {
+    has_failed_ = true;
+    context_.stop();
+  }
+
+  const Limits limits_;
+  Rules rules_;
+  net::io_context context_{1};  // one thread
+  tcp::acceptor acceptor_{context_};
+  net::steady_timer pause_{context_};
+  std::set<std::shared_ptr<Connection>> connections_;
+  std::map<int, std::shared_ptr<Watch>> watches_;
+  const AnswerHandler* handler_ = nullptr;
+  bool has_failed_ = false;
+};
+
+}  // namespace
+}  // namespace lamina::http
+
+extern "C" __attribute__((visibility("default"))) lamina::http::Engine*
+lamina_make_http_engine(int version,
+                        const lamina::http::Limits* limits) noexcept {
+  errno = 0;
+  if (version != lamina::http::kEngineVersion) return nullptr;
+  try {
+    return new lamina::http::BeastEngine(*limits);
+  } catch (const std::exception&) {
+    errno = ENOMEM;
+    return nullptr;
+  }
+}
