@@ -65,15 +65,13 @@ TEST_P(Hardening, ChecksStacks) {
 
 // Of the files below, in their order.
 constexpr std::array kFileNames = {"Program", "TextModule", "CadModule",
-                                   "DecimateModule"};
+                                   "DecimateModule", "HttpModule"};
 
-INSTANTIATE_TEST_SUITE_P(Files, Hardening,
-                         testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE,
-                                         LAMINA_CAD_MODULE,
-                                         LAMINA_DECIMATE_MODULE),
-                         [](const auto& file) {
-                           return kFileNames[file.index];
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Files, Hardening,
+    testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE, LAMINA_CAD_MODULE,
+                    LAMINA_DECIMATE_MODULE, LAMINA_HTTP_MODULE),
+    [](const auto& file) { return kFileNames[file.index]; });
 
 TEST(HardenedProgram, ChecksBuffersAndContainers) {
   const std::string symbols = read_elf("--dyn-syms", LAMINA_PROGRAM);

@@ -50,9 +50,9 @@ std::vector<Include> includes_below(const std::vector<std::string>& folders) {
 }
 
 // The top folders, each before those that may include it.
-const std::vector<std::string> kProduct = {"base",     "plane", "parser",
-                                           "csg",      "ldni",  "slicer",
-                                           "compiler", "api",   "cli"};
+const std::vector<std::string> kProduct = {
+    "base",   "plane",    "parser", "csg", "ldni",
+    "slicer", "compiler", "serve",  "api", "cli"};
 
 // The rooms, each before those that may include it. A room is a folder with the
 // `detail/` in it.
@@ -104,6 +104,7 @@ const std::vector<std::string> kRooms = {"base",
                                          "slicer/bleed",
                                          "slicer/dump",
                                          "compiler",
+                                         "serve/http",
                                          "api/lamina",
                                          "api",
                                          "compiler/tasks",
@@ -253,6 +254,7 @@ TEST(Includes, PackagesKeepToTheirHomes) {
       {"ft2build.h", {"csg/text/"}},
       {"hb", {"csg/text/"}},
       {"OpenMesh/", {"csg/import/decimate_module.cpp"}},
+      {"boost/", {"serve/http/beast_server.cpp"}},
       {"nanoflann", {"slicer/thickness/ball_finder.cpp"}},
   };
   for (const Include& include : includes_below(kProduct)) {
@@ -290,6 +292,7 @@ TEST(TopLevel, HoldsWhatTheMapNames) {
                                           "base",
                                           "plane",
                                           "compiler",
+                                          "serve",
                                           "parser",
                                           "csg",
                                           "csg/mesh",

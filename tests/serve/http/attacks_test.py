@@ -1,0 +1,47 @@
+"""Attacks on a server that is made of the room serve/http.
+
+usage: attacks_test.py HTTP_TEST_SERVER [unittest's arguments]
+"""
+
+import subprocess
+import sys
+import time
+import unittest
+
+import attacks
+
+PROGRAM = None
+# The driver must stay useful in a hurry.
+MOST_SECONDS = 60
+
+
+class Attacks(unittest.TestCase):
+
+    def setUp(self):
+        self.process = subprocess.Popen(
+            [PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.addCleanup(self.end)
+        port = int(self.process.stdout.readline())
+        self.server = attacks.Server(port, self.process.pid, stream="/stream")
+
+    def end(self):
+        self.process.stdin.close()
+        self.process.stdout.close()
+        self.assertEqual(self.process.wait(timeout=10), 0)
+
+    def test_each_gets_its_status_and_the_server_goes_on(self):
+        before = attacks.memory(self.server)[1]
+        begin = time.time()
+        rows = attacks.run(self.server)
+        print(attacks.table(rows, self.server))
+        print(f"memory before: {before:.1f} MB, time: "
+              f"{time.time() - begin:.1f} s")
+        for row in rows:
+            with self.subTest(row.name):
+                self.assertTrue(attacks.is_well(row, self.server), row)
+        self.assertLess(time.time() - begin, MOST_SECONDS)
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,84 @@
+// A server for tests: answers each request with what has reached the handler,
+// as JSON. It prints its port, and ends with its standard input.
+//
+//   /stream   an answer without end, as fast as it is taken
+//   /late     answers after 300 ms
+//   /nothing  gives the reply up
+
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "base/diagnostic.h"
+#include "serve/http/server.h"
+
+using namespace lamina;
+
+namespace {
+
+using Json = nlohmann::json;
+using std::chrono::milliseconds;
+
+std::string echo(const http::Request& request) {
+  Json json;
+  json["method"] = request.method;
+  json["path"] = request.path;
+  json["query"] = request.query;
+  json["type"] = request.content_type;
+  json["size"] = request.body.size();
+  json["body"] = request.body;
+  json["cookies"] = request.cookies;
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+http::Response json_response(std::string body) {
+  http::Response response;
+  response.type = "application/json";
+  response.body = std::move(body);
+  return response;
+}
+
+void pour(http::Server& server, const std::shared_ptr<http::Reply>& reply) {
+  if (!reply->is_open()) return;
+  reply->write(std::string(std::size_t{256} << 10, 'x'));
+  server.after(milliseconds(1), [&server, reply] { pour(server, reply); });
+}
+
+void answer(http::Server& server, const http::Request& request,
+            const std::shared_ptr<http::Reply>& reply) {
+  if (request.path == "/stream") {
+    reply->begin({});
+    pour(server, reply);
+  } else if (request.path == "/late") {
+    server.after(milliseconds(300), [reply, text = echo(request)] {
+      reply->send(json_response(text));
+    });
+  } else if (request.path != "/nothing") {
+    reply->send(json_response(echo(request)));
+  }
+}
+
+}  // namespace
+
+int main() {
+  Diagnostics diagnostics;
+  http::Limits limits;
+  limits.queued_bytes = std::size_t{4} << 20;
+  const auto server = http::make_server(limits, {LAMINA_MODULES}, diagnostics);
+  const std::uint16_t port = server->listen(0);
+  if (port == 0) return 1;
+  std::cout << port << std::endl;
+  server->on_readable(STDIN_FILENO, [&] { server->stop(); });
+  server->run([&](const http::Request& request,
+                  const std::shared_ptr<http::Reply>& reply) {
+    answer(*server, request, reply);
+  });
+  server->forget(STDIN_FILENO);
+  return 0;
+}
