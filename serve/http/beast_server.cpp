@@ -262,6 +262,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     parser_->header_limit(static_cast<std::uint32_t>(limits_.header_bytes));
     parser_->body_limit(limits_.body_bytes);
     parsed_ = 0;
+    is_head_ = false;
     if (input_.empty()) {
       read_more(limits_.header_bytes, &Connection::take_head);
     } else {
