@@ -148,7 +148,7 @@ std::string short_name(std::string_view name) {
 }
 
 std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
+  constexpr std::string_view kLetters =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
@@ -159,7 +159,7 @@ std::string base64(std::string_view bytes) {
       bits = bits << 8 | static_cast<unsigned char>(byte);
     }
     for (std::size_t j = 0; j < 4; ++j) {
-      text += i + j > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * j) & 63];
+      text += i + j > bytes.size() ? '=' : kLetters[bits >> (18 - 6 * j) & 63];
     }
   }
   return text;
