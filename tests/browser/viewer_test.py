@@ -769,7 +769,7 @@ class ViewerTest(unittest.TestCase):
         told = self.browser.text("distance")
         self.browser.evaluate("viewer.solid.turn(90, -40); viewer.zoomSolid(1.5)")
         kept = ("[viewer.solid.yaw, viewer.solid.pitch, viewer.solid.zoomed,"
-                " viewer.view.scale, viewer.state.below, viewer.isMeasuring]")
+                " viewer.view.scale, viewer.state.below, viewer.measuring.mode]")
         before = self.browser.evaluate(kept)
         x, y = self.on_page(13, 23)
         # A part that is larger to all sides, and has its bed 1 mm lower.

@@ -1,10 +1,13 @@
 // The page: what its buttons, keys and pointers do.
 
 const kPlaySpeed = 30;       // layers per second, at most 20 s for all
-const kSnapReach = 9;        // of measuring [pixels]
+const kCalmSteps = 12;       // of playing where motion is to be reduced,
+const kCalmSpeed = 1;        // and how many a second
+const kKeyStep = 40;         // of moving and turning by keys [pixels]
+const kGripMargin = 24;      // of the grip's middle from what is beside it [pixels]
 const kClickReach = 5;       // what moves farther is no click [pixels]
-const kListedPlaces = 200;   // of a kind
 const kPhone = "(max-width: 760px)";  // as in style.css
+const kCalm = "(prefers-reduced-motion: reduce)";
 
 // What takes all keys by itself while it has the focus.
 const kKeyTakers = "input:not(#slider), select, textarea, [contenteditable], dialog:not(#keys)";
@@ -12,34 +15,13 @@ const kKeyTakers = "input:not(#slider), select, textarea, [contenteditable], dia
 const kIcons = {
   play: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M5 2.5v15l12-7.5z"/></svg>',
   pause: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M4 3h4v14H4zm8 0h4v14h-4z"/></svg>',
+  grip: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M10 1l5 6H5zm0 18l5-6H5zM3 9h14v2H3z"/></svg>',
   theme: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M10 1a9 9 0 1 0 0 18 9 9 0 0 0 0-18zm0 16V3a7 7 0 0 1 0 14z"/></svg>',
 };
 
 const byId = (id) => document.getElementById(id);
 const placeOf = (event) => [event.offsetX, event.offsetY];
 const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
-
-// "1 island", "3 loose parts".
-const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
-
-const rangeText = ({first, last}) => first === last ? `${first}` : `${first}–${last}`;
-
-// Items by what keyOf() says of them, in the order of the first ones.
-function groupBy(items, keyOf) {
-  const groups = new Map();
-  for (const item of items) {
-    const key = keyOf(item);
-    if (!groups.has(key)) groups.set(key, []);
-    groups.get(key).push(item);
-  }
-  return groups;
-}
-
-function make(name, text = "") {
-  const element = document.createElement(name);
-  element.textContent = text;
-  return element;
-}
 
 function fullestLayer({partLayers}) {
   const areas = partLayers.map((layer) => layer.area);
@@ -61,11 +43,13 @@ class Viewer {
   // where only one of both panes is to be open.
   constructor(part, asked = {}) {
     this.view = new View();
-    this.drawing = new Drawing(byId("drawing"), this.view);
+    this.measuring = new Measuring(this.view);
+    this.drawing = new Drawing(byId("drawing"), this.view, this.measuring);
     this.plot = new Plot(byId("plot"));
     this.solid = new Solid(byId("solid"));
+    this.findings = new FindingList(byId("findings"), (place) => this.visit(place));
     this.state = {
-      index: 0, early: null, below: false, marks: true, supports: true, pointer: null, ends: [],
+      index: 0, early: null, below: false, marks: true, supports: true, pointer: null,
     };
     this.onChoose = () => {};
     this.isListing = !matchMedia(kPhone).matches;
@@ -73,6 +57,7 @@ class Viewer {
     this.isWhole = !asked.layer;
     this.height = asked.layer ? heightOf(part, asked.layer - 1) :
       heightOf(part, fullestLayer(part));
+    putWords(document);
     byId("theme").innerHTML = kIcons.theme;
     byId("play").innerHTML = kIcons.play;
     this.bindSlider();
@@ -80,6 +65,7 @@ class Viewer {
     this.bindKeys();
     this.bindPointers();
     this.bindOrbit();
+    this.bindGrip();
     const resizes = new ResizeObserver(() => this.resize());
     for (const pane of document.querySelectorAll(".pane")) resizes.observe(pane);
     this.setPart(part);
@@ -156,65 +142,17 @@ class Viewer {
     const [x, y, z] = size.map((length) => fixed(length, 2));
     const shown = supports && !this.state.supports ? supports.partVolume : volume;
     byId("summary").textContent = [
-      counted(layers.length, "layer"), `${x} × ${y} × ${z} mm`, `${fixed(shown, 2)} mm³`,
+      word("layers", layers.length), word("size", x, y, z), word("mm3", fixed(shown, 2)),
       ...[supports && supports.text, estimate].filter((text) => text),
     ].join(" · ");
   }
 
-  // Lists what was found by kind, and what one line of the design made as one.
   listPlaces() {
     const {found} = this.part;
-    const list = byId("findings");
-    const seen = list.scrollTop;
-    list.replaceChildren();
     byId("marks").hidden = !found;
-    list.hidden = !found || !this.isListing;
-    if (!found) return;
-    const kinds = groupBy(found.places, ({kind}) => kind);
-    const heading = make("h2", found.places.length > 0 ? "Findings" :
-      found.hasPrint ? "No problems found" : `Nothing thinner than ${this.part.minFeature} mm`);
-    list.append(heading);
-    for (const [kind, places] of kinds) list.append(...this.listKind(kind, places));
-    list.append(...found.notes.map((note) => make("p", note)));
-    list.scrollTop = seen;
     byId("marks").setAttribute("aria-pressed", this.isListing);
-  }
-
-  listKind(kind, places) {
-    const isThin = kind === "wall" || kind === "gap";
-    const heading = make("h3");
-    const dot = make("i");
-    dot.style.background = `var(--${kind.replace(" ", "-")})`;
-    heading.append(dot, counted(places.length, kind) +
-        (isThin ? ` thinner than ${this.part.minFeature} mm` : ""));
-    const parts = [heading];
-    const listed = places.slice(0, kListedPlaces);
-    for (const [origin, ofOrigin] of groupBy(listed, (place) => place.origin)) {
-      const rows = make("ol");
-      rows.append(...ofOrigin.map((place) => this.listPlace(place)));
-      if (origin && ofOrigin.length > 1) {
-        const group = make("details");
-        group.append(make("summary", `${counted(ofOrigin.length, "place")}, ` +
-            (isThin ? ofOrigin[0].text : `layer ${rangeText(ofOrigin[0])}`)), rows);
-        parts.push(group);
-      } else {
-        parts.push(rows);
-      }
-      if (origin) parts.push(make("em", origin));
-    }
-    if (listed.length < places.length) {
-      parts.push(make("p", `Only the first ${kListedPlaces} are listed.`));
-    }
-    return parts;
-  }
-
-  listPlace(place) {
-    const item = make("li");
-    const button = make("button");
-    button.append(make("span", place.text), make("small", `layer ${rangeText(place)}`));
-    button.onclick = () => this.visit(place);
-    item.append(button);
-    return item;
+    byId("findings").hidden = !found || !this.isListing;
+    if (found) this.findings.show(this.part);
   }
 
   // The layer that is shown, as it is shown, its number, and how many there are.
@@ -268,14 +206,14 @@ class Viewer {
   describeLayer() {
     const {layer, number, count, bed} = this.inView;
     const height = fixed(layer.z - bed, 3);
-    byId("number").textContent = `${number} of ${count}`;
-    byId("height").textContent = `${height} mm`;
-    byId("area").textContent = `${fixed(layer.area, 4)} mm²`;
+    byId("number").textContent = word("numberOf", number, count);
+    byId("height").textContent = word("mm", height);
+    byId("area").textContent = word("mm2", fixed(layer.area, 4));
     byId("loops").textContent = layer.holes === 0 ? `${layer.loops}` :
-      `${layer.loops}, ${layer.holes} of them ${layer.holes === 1 ? "a hole" : "holes"}`;
-    byId("perimeter").textContent = `${fixed(layer.perimeter, 3)} mm`;
-    const words = `Layer ${number} of ${count}, z ${height} mm above the bed, ` +
-      `area ${fixed(layer.area, 2)} mm²`;
+      layer.holes === 1 ? word("loopsWithHole", layer.loops) :
+        word("loopsWithHoles", layer.loops, layer.holes);
+    byId("perimeter").textContent = word("mm", fixed(layer.perimeter, 3));
+    const words = word("layerInWords", number, count, height, fixed(layer.area, 2));
     byId("slider").value = number;
     byId("slider").setAttribute("aria-valuetext", words);
     byId("drawing").setAttribute("aria-label", words);
@@ -286,9 +224,13 @@ class Viewer {
     if (this.frame) return;
     this.frame = requestAnimationFrame(() => {
       this.frame = 0;
-      if (!byId("drawing-pane").hidden) this.drawing.draw(this.state);
+      if (!byId("drawing-pane").hidden) {
+        if (this.state.pointer) this.aim(this.state.pointer);
+        this.drawing.draw(this.state);
+      }
       if (!byId("solid-pane").hidden) {
         this.solid.draw(this.state, this.height, this.isWhole);
+        this.placeGrip();
       }
       this.plot.draw(this.state);
     });
@@ -322,7 +264,8 @@ class Viewer {
       byId("hint").style.left = `${Math.min(slider.clientWidth - 70,
           Math.max(70, event.offsetX))}px`;
       byId("hint").textContent =
-          `${index + 1}: z ${fixed(layers[index].z - this.bed, 3)}, ${fixed(layers[index].area, 2)} mm²`;
+          word("layerHint", index + 1, fixed(layers[index].z - this.bed, 3),
+              fixed(layers[index].area, 2));
     };
     slider.onpointerleave = () => { byId("hint").hidden = true; };
     byId("profile").onwheel = (event) => {
@@ -362,13 +305,50 @@ class Viewer {
     this.draw();
   }
 
-  toggleMeasure() {
-    this.isMeasuring = !this.isMeasuring;
-    byId("measure").setAttribute("aria-pressed", this.isMeasuring);
-    byId("drawing").classList.toggle("measuring", this.isMeasuring);
-    this.state.ends = [];
-    this.tellDistance();
+  // mode: "distance" or "wall"
+  toggleMeasure(mode) {
+    this.measuring.toggle(mode);
+    this.showMode();
     this.draw();
+  }
+
+  showMode() {
+    const {mode} = this.measuring;
+    byId("measure").setAttribute("aria-pressed", mode === "distance");
+    byId("thickness").setAttribute("aria-pressed", mode === "wall");
+    byId("drawing").classList.toggle("measuring", mode !== null);
+    this.showMeasure();
+  }
+
+  // What is measured, and what is to be said besides.
+  showMeasure(...words) {
+    const {mode} = this.measuring;
+    byId("distance").hidden = !mode;
+    if (!mode) {
+      byId("distance").replaceChildren();
+      return;
+    }
+    const {value, details} = this.measuring.describe();
+    const more = [...details, ...words.length || !value ? words : [word("toCopy")]];
+    byId("distance").replaceChildren(value, make("small", ` ${more.join("  ")}`));
+  }
+
+  // Looks what a click at a place of the drawing would measure.
+  aim(at) {
+    if (!this.measuring.mode) return;
+    const {layer, bed} = this.inView;
+    this.measuring.aim(layer, layer.z - bed, at);
+  }
+
+  async copy() {
+    const {text} = this.measuring;
+    if (!this.measuring.mode || !text) return;
+    try {
+      await navigator.clipboard.writeText(text);
+      this.showMeasure(word("copied"));
+    } catch {
+      this.showMeasure(word("notCopied"));
+    }
   }
 
   // Shows the layer ("section") or the solid ("orbit"), or not; one of them stays.
@@ -380,8 +360,8 @@ class Viewer {
     for (const [button, pane] of Object.entries(panes)) {
       byId(button).setAttribute("aria-pressed", !pane.hidden);
     }
-    if (panes.section.hidden && this.isMeasuring) this.toggleMeasure();
-    byId("measure").disabled = byId("below").disabled = panes.section.hidden;
+    if (panes.section.hidden && this.measuring.mode) this.toggleMeasure(this.measuring.mode);
+    for (const id of ["measure", "thickness", "below"]) byId(id).disabled = panes.section.hidden;
     this.resize();
   }
 
@@ -398,12 +378,14 @@ class Viewer {
     if (!this.isPlaying) return;
     this.leaveEarly();
     const last = this.part.layers.length - 1;
-    const speed = Math.max(kPlaySpeed, last / 20);
+    const isCalm = matchMedia(kCalm).matches;
+    const speed = isCalm ? last / kCalmSteps * kCalmSpeed : Math.max(kPlaySpeed, last / 20);
     const from = this.state.index === last ? 0 : this.state.index;
     const begin = performance.now();
     const step = (now) => {
       if (!this.isPlaying) return;
-      this.choose(from + Math.max(0, now - begin) / 1000 * speed);
+      const seconds = Math.max(0, now - begin) / 1000;
+      this.choose(from + speed * (isCalm ? Math.floor(seconds * kCalmSpeed) / kCalmSpeed : seconds));
       if (this.inView.number < this.inView.count) requestAnimationFrame(step);
       else this.play();
     };
@@ -412,7 +394,8 @@ class Viewer {
 
   bindButtons() {
     byId("fit").onclick = () => this.fit();
-    byId("measure").onclick = () => this.toggleMeasure();
+    byId("measure").onclick = () => this.toggleMeasure("distance");
+    byId("thickness").onclick = () => this.toggleMeasure("wall");
     byId("below").onclick = () => this.toggle("below");
     byId("supports").onclick = () => this.toggleSupports();
     byId("marks").onclick = () => this.toggleMarks();
@@ -445,18 +428,24 @@ class Viewer {
       Home: () => this.choose(0), End: () => this.choose(Infinity),
       "+": () => zoom(1.25), "=": () => zoom(1.25), "-": () => zoom(.8),
       f: () => this.fit(), 0: () => this.fit(),
-      m: () => byId("drawing-pane").hidden || this.toggleMeasure(),
+      m: () => byId("drawing-pane").hidden || this.toggleMeasure("distance"),
+      w: () => byId("drawing-pane").hidden || this.toggleMeasure("wall"),
+      c: () => this.copy(),
       b: () => this.toggle("below"),
       u: () => this.part.supports && this.toggleSupports(),
       t: () => this.part.found && this.toggleMarks(),
       l: () => this.togglePane("section"), s: () => this.togglePane("orbit"),
       d: () => this.toggleTheme(), "?": () => this.toggleKeys(), " ": () => this.play(),
-      Escape: () => this.isMeasuring && this.toggleMeasure(),
+      Escape: () => this.measuring.mode && this.toggleMeasure(this.measuring.mode),
     };
     document.addEventListener("keydown", (event) => {
       if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
       if (byId("keys").open && event.key !== "?") return;
       if (event.target.closest(kKeyTakers)) return;
+      if (this.takeArrow(event)) {
+        event.preventDefault();
+        return;
+      }
       const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
       // Space presses the button that has the focus.
       if (!act || (event.key === " " && event.target.closest("button, summary, a"))) return;
@@ -465,9 +454,40 @@ class Viewer {
     });
   }
 
+  // Moves the cross of measuring in the drawing, or with Shift the drawing or the
+  // solid. Returns whether the key is one of these.
+  takeArrow({key, shiftKey}) {
+    const inDrawing = document.activeElement === this.drawing.canvas;
+    const isMeasuring = inDrawing && this.measuring.mode;
+    if (isMeasuring && key === "Enter") {
+      this.click(this.cross());
+      return true;
+    }
+    const [dx, dy] = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[key] || [0, 0];
+    if (!dx && !dy || !(isMeasuring || shiftKey)) return false;
+    if (isMeasuring) {
+      const [x, y] = this.cross();
+      const step = shiftKey ? 10 : 1;
+      this.point([x + step * dx, y + step * dy]);
+    } else if (inDrawing || byId("solid-pane").hidden) {
+      this.isFitted = false;
+      this.view.x -= kKeyStep * dx;
+      this.view.y -= kKeyStep * dy;
+    } else {
+      this.solid.turn(kKeyStep * dx, kKeyStep * dy);
+    }
+    this.draw();
+    return true;
+  }
+
+  // Where the pointer is, or the middle of the drawing.
+  cross() {
+    return this.state.pointer || this.room().map((length) => length / 2);
+  }
+
   // The wheel calls zoom(factor, place), or leafs with Shift. A pointer that moves
-  // while it is down calls drag(from, to, hold); `hold` is where another one is
-  // down, if any is. Returns the pointers that are down.
+  // while it is down calls drag(from, to, hold, event); `hold` is where another one
+  // is down, if any is. Returns the pointers that are down.
   bindCanvas(canvas, zoom, drag) {
     const held = new Map();
     canvas.onwheel = (event) => {
@@ -483,7 +503,7 @@ class Viewer {
     canvas.addEventListener("pointermove", (event) => {
       if (!held.has(event.pointerId)) return;
       const [, hold] = [...held].find(([id]) => id !== event.pointerId) || [];
-      drag(held.get(event.pointerId), placeOf(event), hold);
+      drag(held.get(event.pointerId), placeOf(event), hold, event);
       held.set(event.pointerId, placeOf(event));
     });
     for (const end of ["pointerup", "pointercancel"]) {
@@ -501,13 +521,7 @@ class Viewer {
       this.travel = 0;
       canvas.classList.add("panning");
     };
-    canvas.onpointermove = (event) => {
-      this.state.pointer = placeOf(event);
-      const [x, y] = this.view.toPart(this.state.pointer);
-      byId("pointer").textContent =
-          `x ${fixed(x + this.view.low[0], 3)}  y ${fixed(y + this.view.low[1], 3)} mm`;
-      this.draw();
-    };
+    canvas.onpointermove = (event) => this.point(placeOf(event));
     canvas.onpointerup = canvas.onpointercancel = (event) => {
       canvas.classList.remove("panning");
       if (held.size === 0 && this.travel < kClickReach && event.type === "pointerup") {
@@ -516,9 +530,18 @@ class Viewer {
     };
     canvas.onpointerleave = () => {
       this.state.pointer = null;
+      this.measuring.leave();
       byId("pointer").textContent = "";
       this.draw();
     };
+  }
+
+  point(at) {
+    this.state.pointer = at;
+    const [x, y] = this.view.toPart(at);
+    const [left, foot] = this.view.low;
+    byId("pointer").textContent = word("pointer", fixed(x + left, 3), fixed(y + foot, 3));
+    this.draw();
   }
 
   zoomDrawing(factor, at) {
@@ -536,12 +559,53 @@ class Viewer {
     const {canvas} = this.solid;
     const stretch = (from, to, hold) =>
       this.zoomSolid(Math.max(1, distance(to, hold)) / Math.max(1, distance(from, hold)));
-    this.bindCanvas(canvas, (factor) => this.zoomSolid(factor), (from, to, hold) => {
+    this.bindCanvas(canvas, (factor) => this.zoomSolid(factor), (from, to, hold, event) => {
       if (hold) stretch(from, to, hold);
+      else if (event.shiftKey) this.raise(from[1] - to[1]);
       else this.solid.turn(to[0] - from[0], to[1] - from[1]);
       this.draw();
     });
     canvas.ondblclick = () => this.fit();
+  }
+
+  // The grip at the edge of the section raises and lowers it.
+  bindGrip() {
+    const grip = byId("grip");
+    grip.innerHTML = kIcons.grip;
+    let from = 0;
+    grip.onpointerdown = (event) => {
+      grip.setPointerCapture(event.pointerId);
+      from = event.clientY;
+    };
+    grip.onpointermove = (event) => {
+      if (!grip.hasPointerCapture(event.pointerId)) return;
+      this.raise(from - event.clientY);
+      from = event.clientY;
+    };
+    grip.onpointerup = grip.onpointercancel = () => { this.raised = null; };
+    this.solid.canvas.addEventListener("pointerdown", () => { this.raised = null; });
+  }
+
+  // Raises the section by so many pixels, in sum since the pointer went down.
+  raise(pixels) {
+    const {layers} = this.part;
+    const top = layers[layers.length - 1].top - this.bed;
+    this.raised ??= this.isWhole ? top : this.height;
+    this.raised += pixels * this.solid.heightOfPixel();
+    this.choose(layerAt(layers, Math.min(top, Math.max(0, this.raised))));
+  }
+
+  placeGrip() {
+    const layer = this.part.layers[this.state.index];
+    const last = this.part.layers[this.part.layers.length - 1];
+    const at = this.solid.sectionEnd((this.isWhole ? last : layer).top - this.bed);
+    const grip = byId("grip");
+    grip.hidden = at === null;
+    if (!at) return;
+    const {clientWidth, clientHeight} = this.solid.canvas;
+    const within = (value, length) => Math.min(length - kGripMargin, Math.max(kGripMargin, value));
+    grip.style.left = `${within(at[0] + kGripMargin, clientWidth)}px`;
+    grip.style.top = `${within(at[1], clientHeight)}px`;
   }
 
   // One pointer moves the part, two of them stretch it.
@@ -557,30 +621,11 @@ class Viewer {
   }
 
   click(at) {
-    if (!this.isMeasuring) return;
-    const {state} = this;
-    if (state.ends.length === 2) state.ends = [];
-    const {layer, bed} = this.inView;
-    const [x, y] = snap(layer, this.view.toPart(at), kSnapReach / this.view.scale);
-    state.ends.push([x + this.view.low[0], y + this.view.low[1], layer.z - bed]);
-    this.tellDistance();
+    if (!this.measuring.mode) return;
+    this.aim(at);
+    this.measuring.take();
+    this.showMeasure(...this.measuring.target.length ? [] : [word("noWall")]);
     this.draw();
-  }
-
-  tellDistance() {
-    const {ends} = this.state;
-    byId("distance").hidden = !this.isMeasuring;
-    if (ends.length < 2) {
-      byId("distance").innerHTML = ends.length === 0 ?
-        "<small>Click two points; clicks snap to corners and edges</small>" :
-        "<small>Click the second point, in this layer or another</small>";
-      return;
-    }
-    const [dx, dy, dz] = ends[1].map((value, i) => value - ends[0][i]);
-    const parts = [["Δx", dx], ["Δy", dy]].concat(Math.abs(dz) > 1e-9 ? [["Δz", dz]] : []);
-    byId("distance").innerHTML = `${fixed(Math.hypot(dx, dy, dz), 3)} mm <small> ` +
-      parts.map(([name, length]) => `${name} ${fixed(length, 3)}`).join("  ") +
-      "</small>";
   }
 }
 
@@ -604,7 +649,7 @@ async function startPage() {
   } catch (error) {
     byId("fault").hidden = false;
     byId("fault").textContent = typeof DecompressionStream === "undefined" ?
-      "This page needs a browser from 2023 or later." : `The page is damaged: ${error}`;
+      word("tooOld") : word("damaged", error);
     throw error;
   }
 }

@@ -169,33 +169,3 @@ function pathOf(layer) {
   }
   return layer.path;
 }
-
-// The nearest corner of the layer, or else the nearest point of an edge, if it is
-// within `reach`; else the place itself.
-function snap(layer, [x, y], reach) {
-  let corner = reach * reach;
-  let edge = corner;
-  let atCorner = null;
-  let atEdge = null;
-  for (const loop of layer.contours) {
-    let ax = loop[loop.length - 2];
-    let ay = loop[loop.length - 1];
-    for (let i = 0; i < loop.length; i += 2) {
-      const bx = loop[i];
-      const by = loop[i + 1];
-      const toCorner = (bx - x) ** 2 + (by - y) ** 2;
-      if (toCorner < corner) [corner, atCorner] = [toCorner, [bx, by]];
-      const length = (bx - ax) ** 2 + (by - ay) ** 2;
-      if (length > 0) {
-        const t = Math.min(1, Math.max(0,
-            ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length));
-        const px = ax + t * (bx - ax);
-        const py = ay + t * (by - ay);
-        const toEdge = (px - x) ** 2 + (py - y) ** 2;
-        if (toEdge < edge) [edge, atEdge] = [toEdge, [px, py]];
-      }
-      [ax, ay] = [bx, by];
-    }
-  }
-  return atCorner || atEdge || [x, y];
-}

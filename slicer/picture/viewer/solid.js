@@ -23,64 +23,14 @@ const kNarrowest = 1e-5;      // of the part's size: what is narrower is not see
 const kQuad = [0, 1, 2, 0, 2, 3];  // corners of its two triangles
 const kPatience = 8;          // of the page, while the solid is made [ms]
 
-// How deep places lie in a layer, as far as `reach`; less than 0 outside. A grid
-// of cells has the edges that touch each cell; those near a place are looked at
-// in rings of cells, until no nearer one can come.
-class Depths {
+// How deep places lie in a layer, as far as `reach`; less than 0 outside. Edges
+// near a place are looked at in rings of cells, until no nearer one can come.
+class Depths extends EdgeGrid {
   constructor(contours, reach) {
+    super(contours, (width, height, count) => Math.min(reach / 4,
+        Math.max(reach / 16, Math.sqrt(width * height / count) || 0)));
     this.reach = reach;
-    this.edges = edgesOf(contours);
-    const {edges} = this;
-    const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
-    for (let i = 0; i < edges.length; ++i) {
-      low[i % 2] = Math.min(low[i % 2], edges[i]);
-      high[i % 2] = Math.max(high[i % 2], edges[i]);
-    }
-    [this.left, this.low] = low;
-    const [width, height] = edges.length ? [high[0] - low[0], high[1] - low[1]] : [0, 0];
-    this.cell = Math.min(reach / 4,
-        Math.max(reach / 16, Math.sqrt(width * height * 4 / edges.length) || 0));
-    this.columns = Math.floor(width / this.cell) + 1;
-    this.rows = edges.length ? Math.floor(height / this.cell) + 1 : 0;
-    this.fillCells();
     this.findInside();
-  }
-
-  // Calls visit(cell, edge) for the cells that edges touch; an edge is the place
-  // of its numbers.
-  forCells(visit) {
-    const {edges, cell, columns, rows} = this;
-    const inRange = (value, count) => Math.min(count - 1, Math.max(0, Math.floor(value)));
-    for (let i = 0; i < edges.length; i += 4) {
-      const ax = (edges[i] - this.left) / cell;
-      const ay = (edges[i + 1] - this.low) / cell;
-      const bx = (edges[i + 2] - this.left) / cell;
-      const by = (edges[i + 3] - this.low) / cell;
-      const first = inRange(Math.min(ay, by), rows);
-      const last = inRange(Math.max(ay, by), rows);
-      for (let row = first; row <= last; ++row) {
-        let [from, to] = [ax, bx];
-        if (first < last) {
-          const run = (bx - ax) / (by - ay);
-          const at = (y) => ax + run * (Math.min(Math.max(ay, by), Math.max(Math.min(ay, by), y)) - ay);
-          [from, to] = [at(row), at(row + 1)];
-        }
-        const end = inRange(Math.max(from, to), columns);
-        for (let column = inRange(Math.min(from, to), columns); column <= end; ++column) {
-          visit(row * columns + column, i);
-        }
-      }
-    }
-  }
-
-  // The edges of cell c are listed from begins[c] to begins[c + 1].
-  fillCells() {
-    const begins = new Int32Array(this.rows * this.columns + 1);
-    this.forCells((cell) => ++begins[cell]);
-    for (let i = 1; i < begins.length; ++i) begins[i] += begins[i - 1];
-    this.listed = new Int32Array(begins[begins.length - 1]);
-    this.forCells((cell, edge) => { this.listed[--begins[cell]] = edge; });
-    this.begins = begins;
   }
 
   // The winding around the middle of each cell.
@@ -150,22 +100,6 @@ class Depths {
       this.side = side;
     }
   }
-}
-
-// Edges of loops, as ax, ay, bx, by, …
-function edgesOf(contours) {
-  const edges = new Float64Array(contours.reduce((sum, loop) => sum + 2 * loop.length, 0));
-  let end = 0;
-  for (const loop of contours) {
-    for (let i = 0; i < loop.length; i += 2) {
-      const j = i + 2 < loop.length ? i + 2 : 0;
-      edges[end++] = loop[i];
-      edges[end++] = loop[i + 1];
-      edges[end++] = loop[j];
-      edges[end++] = loop[j + 1];
-    }
-  }
-  return edges;
 }
 
 // Calls visit(left, right, bottom, top) for trapezoids that cover what only one
@@ -543,6 +477,7 @@ const kGold = [.92, .58, .16];  // linear light
 const kSupportDepth = 2;
 const kPlainShine = .25;        // as in stack_picture.cpp
 const kGamma = 2.2;             // of the shader's light
+const kFocal = 4;               // focal length, of half the picture's height
 
 // "#rrggbb" as numbers from 0 to 1.
 function rgbOf(name) {
@@ -594,7 +529,7 @@ class Solid {
   open() {
     if (this.gl) return;
     const gl = this.canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
-    if (!gl) throw new Error("The solid needs WebGL 2: this browser has no WebGL 2, or it is turned off.");
+    if (!gl) throw new Error(word("noSolid"));
     this.lit = this.program(gl, kFragmentShader);
     this.flat = this.program(gl, kFlatShader);
     this.outline = this.corners(gl);
@@ -713,7 +648,7 @@ class Solid {
 
   // How far the eye must be for the part to fit, whichever way it is turned
   // around z.
-  distance(focal, aspect) {
+  distance(aspect) {
     const [radius, half] = [Math.hypot(this.part.size[0], this.part.size[1]) / 2,
       this.part.size[2] / 2];
     const [e, f] = [Math.cos(.6), Math.sin(.6)];
@@ -723,10 +658,38 @@ class Solid {
       for (const z of [-half, half]) {
         const [x, y] = [radius * Math.cos(angle), radius * Math.sin(angle)];
         distance = Math.max(distance, z * f - y * e +
-            1.12 * focal * Math.max(Math.abs(x) / aspect, Math.abs(y * f + z * e)));
+            1.12 * kFocal * Math.max(Math.abs(x) / aspect, Math.abs(y * f + z * e)));
       }
     }
     return distance;
+  }
+
+  // How much higher a place in the middle is that is one pixel higher in the picture
+  // [mm]; from above, as if it were seen from its side.
+  heightOfPixel() {
+    const {clientWidth, clientHeight} = this.canvas;
+    const distance = this.distance(clientWidth / clientHeight) / this.zoomed;
+    return 2 * distance / (clientHeight * kFocal * Math.max(.25, Math.cos(this.pitch)));
+  }
+
+  // Where the corner of the part's box that is farthest to the right is in the
+  // picture, at a height above the bed [pixels]; null where nothing is shown.
+  sectionEnd(height) {
+    if (!this.part) return null;
+    const {clientWidth, clientHeight} = this.canvas;
+    const [width, depth, tall] = this.part.size;
+    const [c, s] = [Math.cos(this.yaw), Math.sin(this.yaw)];
+    const [e, f] = [Math.cos(this.pitch), Math.sin(this.pitch)];
+    const aspect = clientWidth / clientHeight;
+    const distance = this.distance(aspect) / this.zoomed;
+    const z = height - tall / 2;
+    const places = [[1, 1], [1, -1], [-1, 1], [-1, -1]].map(([i, j]) => {
+      const [x, y] = [i * width / 2, j * depth / 2];
+      const scale = kFocal / (distance - (f * z - s * e * x - c * e * y)) / 2;
+      return [(.5 + scale * (c * x - s * y) / aspect) * clientWidth,
+        (.5 - scale * (s * f * x + c * f * y + e * z)) * clientHeight];
+    });
+    return places.reduce((best, place) => place[0] > best[0] ? place : best);
   }
 
   // Draws the part up to the layer at a height above the bed, or all of it with
@@ -748,7 +711,6 @@ class Solid {
     const [c, s] = [Math.cos(this.yaw), Math.sin(this.yaw)];
     const [e, f] = [Math.cos(this.pitch), Math.sin(this.pitch)];
     const aspect = canvas.width / canvas.height;
-    const focal = 4;
     const use = (program, dotSize) => {
       const uniform = (name) => gl.getUniformLocation(program, name);
       gl.useProgram(program);
@@ -756,7 +718,7 @@ class Solid {
       gl.uniformMatrix3fv(uniform("turn"), false,
           [c, s * f, -s * e, -s, c * f, -c * e, 0, e, f]);
       gl.uniform3fv(uniform("center"), part.size.map((length) => length / 2));
-      gl.uniform4f(uniform("lens"), this.distance(focal, aspect) / this.zoomed, focal,
+      gl.uniform4f(uniform("lens"), this.distance(aspect) / this.zoomed, kFocal,
           aspect, Math.hypot(...part.size) / 2 * 1.01);
       gl.uniform1f(uniform("dotSize"), dotSize);
       return {

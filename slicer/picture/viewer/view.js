@@ -106,14 +106,15 @@ function findingsOf(part) {
 }
 
 class Drawing {
-  constructor(canvas, view) {
+  constructor(canvas, view, measuring) {
     this.canvas = canvas;
     this.view = view;
+    this.measuring = measuring;
     this.part = null;
   }
 
-  // state: {index, early, below, marks, supports, pointer, ends}; early is a layer
-  // by itself, shown instead of the part's; ends are [x, y, z] from the bed's origin.
+  // state: {index, early, below, marks, supports, pointer}; early is a layer by
+  // itself, shown instead of the part's.
   draw(state) {
     const sheet = prepare(this.canvas);
     sheet.context.fillStyle = color("field");
@@ -121,7 +122,7 @@ class Drawing {
     this.drawGrid(sheet);
     if (state.early) this.drawLayer(sheet, state.early.layer, "solid", "outline");
     else this.drawPart(sheet, state);
-    this.drawMeasure(sheet, state);
+    this.measuring.draw(sheet);
     this.drawRulers(sheet, state.pointer);
     this.drawScale(sheet);
   }
@@ -228,22 +229,6 @@ class Drawing {
     }
   }
 
-  drawMeasure({context}, state) {
-    if (state.ends.length === 0) return;
-    const [left, foot] = this.view.low;
-    const ends = state.ends.map(([x, y]) => this.view.toPage([x - left, y - foot]));
-    context.strokeStyle = context.fillStyle = color("measure");
-    context.lineWidth = 2;
-    context.beginPath();
-    ends.forEach((end, i) => i ? context.lineTo(...end) : context.moveTo(...end));
-    context.stroke();
-    for (const [x, y] of ends) {
-      context.beginPath();
-      context.arc(x, y, 4.5, 0, 2 * Math.PI);
-      context.fill();
-    }
-  }
-
   drawRulers(sheet, pointer) {
     const {context, width, height} = sheet;
     context.fillStyle = color("paper");
@@ -284,8 +269,8 @@ class Drawing {
     const x = kRuler + 16.5;
     const y = height - 19.5;
     const end = x + length * this.view.scale;
-    const words = length < .01 ? `${+(length * 1000).toPrecision(1)} µm` :
-      `${+length.toPrecision(1)} mm`;
+    const words = length < .01 ? word("micrometres", +(length * 1000).toPrecision(1)) :
+      word("mm", +length.toPrecision(1));
     context.font = "12px system-ui, 'DejaVu Sans', sans-serif";
     context.fillStyle = color("card");
     context.beginPath();
