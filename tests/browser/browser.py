@@ -23,7 +23,7 @@ class Browser:
         self.source, from_browser = os.pipe()
         # The protocol's pipes are the descriptors 3 and 4.
         self.process = subprocess.Popen(
-            ["sh", "-c", f'exec "$0" "$@" 3<&{to_browser} 4>&{from_browser}',
+            ["bash", "-c", f'exec "$0" "$@" 3<&{to_browser} 4>&{from_browser}',
              program, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader",
              "--disable-dev-shm-usage", "--hide-scrollbars",
              "--remote-debugging-pipe", f"--user-data-dir={self.folder}",

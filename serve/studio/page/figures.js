@@ -1,1 +1,31 @@
+// What the print weighs, takes and costs.
 
+class Figures {
+  constructor() {
+    this.report = null;
+  }
+
+  show(report) {
+    this.report = report;
+    const {size, volume, estimate, metals} = report;
+    byId("figures").hidden = false;
+    byId("figures").classList.remove("old");
+    byId("figure-size").textContent = sizeText(size);
+    byId("figure-volume").textContent = say("volume-text", fixed(volume, 2));
+    byId("figure-estimate").textContent = estimate;
+    byId("figure-estimate").hidden = !estimate;
+    byId("figure-metals").replaceChildren(...metals.map(({title, grams}) => build("tr", {},
+        build("th", {scope: "row", textContent: title}),
+        build("td", {textContent: say("grams", gramsText(grams))}))));
+  }
+
+  // The figures are of what was shown before.
+  dim() {
+    byId("figures").classList.add("old");
+  }
+}
+
+const sizeText = (size) => say("size-text", ...size.map((length) => fixed(length, 2)));
+
+// As a goldsmith's scales show it.
+const gramsText = (grams) => fixed(grams, grams < 100 ? 2 : 1);

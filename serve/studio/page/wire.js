@@ -1,1 +1,170 @@
+// How the page and the program speak (docs/studio.md).
+//
+// A drag of a slider makes more choices than the program can follow, so the wire
+// keeps only the newest and sends it
+//   - at once, if the program is idle;
+//   - when the layer of the choice before has come, or that has taken too long;
+//   - at times only when all of the choice before has come, so that the solid
+//     follows, too.
 
+const kLayerPatience = 150;   // how long a layer may keep back the next choice [ms]
+const kPartInterval = 400;    // after so long without a part, one is waited for [ms]
+const kPartPatience = 1000;   // but no longer than this since its choice [ms]
+const kRetry = 1000;          // until the next try to connect [ms]
+
+// Server-sent events and requests. Another carrier, as a worker in the browser, has
+// the same methods.
+class HttpTransport {
+  // take(event) gets each event, lose() the news that the connection is lost; it
+  // comes back by itself.
+  open(take, lose) {
+    this.take = take;
+    this.lose = lose;
+    this.listen();
+  }
+
+  listen() {
+    clearTimeout(this.timer);
+    if (this.source) this.source.close();
+    this.source = new EventSource("/events");
+    this.source.onmessage = ({data}) => this.take(JSON.parse(data));
+    this.source.onerror = () => {
+      this.lose();
+      // A browser gives up where anything but events comes.
+      if (this.source.readyState === EventSource.CLOSED) this.reopen();
+    };
+  }
+
+  reopen() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.listen(), kRetry);
+  }
+
+  // Returns {status, body}; the body is a text where it is not JSON. Throws where
+  // no answer comes.
+  async send(path, body) {
+    const answer = await fetch(path, {
+      method: "POST",
+      headers: {"Content-Type": "application/json"},
+      body: JSON.stringify(body),
+    });
+    const text = await answer.text();
+    const isJson = (answer.headers.get("Content-Type") || "").startsWith("application/json");
+    return {status: answer.status, body: isJson ? JSON.parse(text) : text};
+  }
+}
+
+// Sends the newest choice, and lets through what the program says of the last that
+// was sent.
+class Wire {
+  // choose() returns the choice as it is now, begin() is called when that is sent;
+  // take(event) gets what comes of it, refuse(status, text) an answer that it is not
+  // taken, and lose() the news that nobody answers.
+  constructor(transport, {choose, begin, take, refuse, lose}) {
+    Object.assign(this, {transport, choose, begin, take, refuse, lose});
+    this.number = 0;
+    this.client = null;
+    this.run = null;       // of the last choice sent: {begin, hasLayer, hasPart, hasEnded}
+    this.isDue = false;    // whether there is a choice to send
+    this.isPosting = false;
+    this.lastPart = 0;     // when a part last came, or changes began
+  }
+
+  open() {
+    this.transport.open((event) => this.hear(event), () => this.disconnect());
+  }
+
+  // The choice has changed.
+  change() {
+    if (!this.isBusy) this.lastPart = performance.now();
+    this.isDue = true;
+    this.pump();
+  }
+
+  // Whether something is sent or to be sent that has not been answered in full.
+  get isBusy() {
+    return this.isDue || this.isPosting || (this.run !== null && !this.run.hasEnded);
+  }
+
+  // A request about the choice as it is now, beside the runs. Returns as send().
+  ask(path, more) {
+    return this.transport.send(path, {...this.choose(), client: this.client,
+      number: this.number, ...more});
+  }
+
+  hear(event) {
+    if (event.kind === "hello") {
+      this.client = event.client;
+      this.run = null;
+      this.isDue = true;
+    } else if (event.kind === "changed") {
+      this.isDue = true;
+    } else if (event.number !== this.number) {
+      return;
+    } else {
+      if (event.kind === "layer") this.run.hasLayer = true;
+      if (event.kind === "part") {
+        this.run.hasPart = true;
+        this.lastPart = performance.now();
+      }
+      if (event.kind === "end") this.run.hasEnded = true;
+    }
+    this.take(event);
+    this.pump();
+  }
+
+  pump() {
+    clearTimeout(this.timer);
+    if (!this.isDue || this.client === null || this.isPosting) return;
+    const wait = this.waitTime(performance.now());
+    if (wait > 0) this.timer = setTimeout(() => this.pump(), wait);
+    else this.post();
+  }
+
+  // How long the run of the choice before may keep back the next [ms].
+  waitTime(now) {
+    const {run} = this;
+    if (run === null || run.hasEnded) return 0;
+    if (!run.hasLayer) return run.begin + kLayerPatience - now;
+    if (run.hasPart || now - this.lastPart < kPartInterval) return 0;
+    return run.begin + kPartPatience - now;
+  }
+
+  async post() {
+    const now = performance.now();
+    // A part that was waited for in vain is not waited for again at once.
+    if (now - this.lastPart >= kPartPatience) this.lastPart = now;
+    this.isDue = false;
+    this.isPosting = true;
+    this.run = {begin: now, hasLayer: false, hasPart: false, hasEnded: false};
+    const choice = {...this.choose(), client: this.client, number: ++this.number};
+    this.begin();
+    try {
+      const {status, body} = await this.transport.send("/change", choice);
+      if (status !== 202) this.miss(choice, status, body);
+    } catch {
+      this.isDue = true;
+      this.disconnect();
+    }
+    this.isPosting = false;
+    this.pump();
+  }
+
+  // The program has not taken a choice.
+  miss(choice, status, body) {
+    if (status !== 404) {
+      this.run.hasEnded = true;
+      this.refuse(status, body);
+    } else if (choice.client === this.client) {
+      this.isDue = true;
+      this.disconnect();
+      this.transport.reopen();
+    }
+  }
+
+  disconnect() {
+    this.client = null;
+    this.run = null;
+    this.lose();
+  }
+}
