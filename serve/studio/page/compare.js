@@ -5,10 +5,10 @@
 
 class ComparedDrawing extends Drawing {
   // canvas, keptCanvas  of the layer and of A's
-  constructor(canvas, view, keptCanvas) {
-    super(canvas, view);
+  constructor(canvas, view, measuring, keptCanvas) {
+    super(canvas, view, measuring);
     this.kept = null;  // A's part
-    this.beside = new Drawing(keptCanvas, new View());
+    this.beside = new Drawing(keptCanvas, new View(), null);
   }
 
   draw(state) {
@@ -89,7 +89,8 @@ class Comparison {
   // Takes over the layer's drawing of the viewer.
   open(viewer) {
     this.viewer = viewer;
-    viewer.drawing = new ComparedDrawing(byId("drawing"), viewer.view, byId("kept-drawing"));
+    viewer.drawing = new ComparedDrawing(byId("drawing"), viewer.view, viewer.measuring,
+        byId("kept-drawing"));
     viewer.drawing.part = viewer.part;
     viewer.bindCanvas(byId("kept-drawing"),
         (factor, at) => viewer.zoomDrawing(factor, at),

@@ -106,6 +106,7 @@ function findingsOf(part) {
 }
 
 class Drawing {
+  // measuring  draws what is measured; null: nothing is
   constructor(canvas, view, measuring) {
     this.canvas = canvas;
     this.view = view;
@@ -122,7 +123,7 @@ class Drawing {
     this.drawGrid(sheet);
     if (state.early) this.drawLayer(sheet, state.early.layer, "solid", "outline");
     else this.drawPart(sheet, state);
-    this.measuring.draw(sheet);
+    if (this.measuring) this.measuring.draw(sheet);
     this.drawRulers(sheet, state.pointer);
     this.drawScale(sheet);
   }
