@@ -35,6 +35,7 @@ std::vector<std::string> files_read(const Compilation& c) {
   const auto add = [&](const std::vector<std::string>& more) {
     files.insert(files.end(), more.begin(), more.end());
   };
+  add(c.loader.missing());
   add(c.tree.files);
   add(c.readers.typesetter.files_read());
   // Printers and materials can be names too, which are no files then.

@@ -100,8 +100,19 @@ Loader::Loader(SourceStore& sources, Diagnostics& diagnostics,
 std::string Loader::find(SourceRange place, std::string_view name,
                          std::span<const Source* const> open) {
   std::string path = look_up(place, name, open);
-  if (!path.empty()) add_file(path);
+  if (path.empty()) {
+    add_missing(fs::path(folder_of(place.source->path())) / fs::path(name));
+  } else {
+    add_file(path);
+  }
   return path;
+}
+
+// A file that includes itself is found nowhere, and is there.
+void Loader::add_missing(const std::string& path) {
+  if (access_.is_file(path)) return;
+  if (std::ranges::find(missing_, path) != missing_.end()) return;
+  missing_.push_back(path);
 }
 
 void Loader::add_file(const std::string& path) {

@@ -77,6 +77,10 @@ class Loader {
   // order in which they were found, each once.
   const std::vector<std::string>& files() const { return files_; }
 
+  // Where a file would have been found that `include` or `use` names, beside
+  // the file that names it, and was not; absolute, each once.
+  const std::vector<std::string>& missing() const { return missing_; }
+
   // The first place in the design, or in a file that it uses, that OpenSCAD
   // 2021.01 cannot parse, if there is one.
   const std::optional<NewerSyntax>& newer_syntax() const { return newer_; }
@@ -102,6 +106,7 @@ class Loader {
   std::string look_up(SourceRange place, std::string_view name,
                       std::span<const Source* const> open) const;
   void add_file(const std::string& path);
+  void add_missing(const std::string& path);
   std::optional<std::string> read(const std::string& path) const;
   // The design itself may come from standard input ("-") or a pipe.
   std::optional<std::string> read_design(const std::string& path) const;
@@ -114,6 +119,7 @@ class Loader {
   const FileAccess& access_;
   Language language_ = Language::k2021;
   std::vector<std::string> files_;
+  std::vector<std::string> missing_;
   std::vector<std::string> fonts_;
   std::optional<NewerSyntax> newer_;
   std::map<std::string, const Source*, std::less<>> included_;

@@ -60,9 +60,11 @@ bool compile_once(const compiler::Request& request, const Closing& closing,
   const int status = session.run(
       [&] { return compile_and_report(session, closing, earlier_seconds); });
   const compiler::Compilation& compilation = session.compilation;
-  files.insert(compilation.loader.files().begin(),
-               compilation.loader.files().end());
-  files.insert(compilation.tree.files.begin(), compilation.tree.files.end());
+  for (const auto* list :
+       {&compilation.loader.files(), &compilation.loader.missing(),
+        &compilation.tree.files}) {
+    files.insert(list->begin(), list->end());
+  }
   return status == kDone;
 }
 

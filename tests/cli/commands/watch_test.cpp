@@ -107,6 +107,16 @@ TEST(Watch, FollowsAllThatTheDesignDependsOn) {
   ASSERT_TRUE(watched.comes_to("ECHO: 2, 2, 2, [2]\n"));
 }
 
+TEST(Watch, FollowsWhatIsMissingAtFirst) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "include <i.scad>\nuse <u.scad>\necho(i, f());");
+  Watched watched(folder, "a.echo");
+  ASSERT_TRUE(watched.comes_to_say("Can't open include file 'i.scad'"));
+  folder.write("i.scad", "i = 1;");
+  folder.write("u.scad", "function f() = 2;");
+  ASSERT_TRUE(watched.comes_to("ECHO: 1, 2\n"));
+}
+
 TEST(Watch, KeepsTheOutputWhereTheDesignFails) {
   const TemporaryFolder folder;
   folder.write("i.scad", "i = 1;");
