@@ -116,9 +116,12 @@ class Browser:
         self.evaluate("new Promise((resolve) => requestAnimationFrame("
                       "() => requestAnimationFrame(resolve)))")
 
-    def press(self, key):
+    def press(self, key, shift=False):
+        # The browser itself takes Tab by its number alone.
+        number = {"windowsVirtualKeyCode": 9} if key == "Tab" else {}
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key)
+            self.call("Input.dispatchKeyEvent", type=kind, key=key,
+                      modifiers=8 if shift else 0, **number)
 
     def click(self, x, y):
         for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
@@ -126,16 +129,22 @@ class Browser:
                       button="none" if kind == "mouseMoved" else "left",
                       clickCount=1)
 
-    def drag(self, start, end):
+    def move(self, x, y):
+        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y,
+                  button="none")
+        self.settle()
+
+    def drag(self, start, end, shift=False):
+        held = 8 if shift else 0
         self.call("Input.dispatchMouseEvent", type="mousePressed", x=start[0],
-                  y=start[1], button="left", clickCount=1)
+                  y=start[1], button="left", clickCount=1, modifiers=held)
         for step in range(1, 5):
             self.call("Input.dispatchMouseEvent", type="mouseMoved",
                       x=start[0] + (end[0] - start[0]) * step / 4,
                       y=start[1] + (end[1] - start[1]) * step / 4,
-                      button="left", buttons=1)
+                      button="left", buttons=1, modifiers=held)
         self.call("Input.dispatchMouseEvent", type="mouseReleased", x=end[0],
-                  y=end[1], button="left", clickCount=1)
+                  y=end[1], button="left", clickCount=1, modifiers=held)
 
     def wheel(self, x, y, by):
         self.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y,

@@ -4,12 +4,15 @@ usage: viewer_test.py LAMINA [unittest's arguments]
 """
 
 import base64
+import http.server
 import json
+import math
 import os
 import re
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 from browser import Browser
@@ -735,6 +738,545 @@ class ViewerTest(unittest.TestCase):
                           if not url.startswith(("file:", "data:"))], [])
         self.assertEqual(len([url for url in self.browser.requests
                               if url.startswith("file:")]), 1)
+
+    # ---- Measuring
+
+    def target(self, x, y, pixels=(0, 0)):
+        """What a click beside a place in mm would take."""
+        px, py = self.on_page(x, y)
+        self.browser.move(px + pixels[0], py + pixels[1])
+        return self.browser.evaluate("viewer.measuring.target")
+
+    def test_measuring_snaps_to_ends_centres_middles_and_edges(self):
+        self.open("plate.html", "theme=light&layer=3")
+        self.browser.press("m")
+        corners = [(17 + 2 * math.cos(i * math.pi / 24),
+                    27 + 2 * math.sin(i * math.pi / 24)) for i in range(48)]
+        for place, pixels, kind, expected, radius in [
+                ((10, 20), (3, -4), "end", (10, 20), None),
+                (corners[5], (1, 1), "end", corners[5], 2),
+                ((17, 27), (-5, 3), "centre", (17, 27), 2),
+                ((15, 20), (4, -5), "middle", (15, 20), None),
+                ((20, 25), (-5, 4), "middle", (20, 25), None),
+                ((12.7, 20), (0, 6), "edge", (12.7, 20), None),
+                ((18, 22), (0, 0), "free", (18, 22), None)]:
+            [found] = self.target(*place, pixels)
+            self.assertEqual(found["kind"], kind, place)
+            x, y, z = found["at"]
+            # Corners are rounded to 1e-4 mm; the pointer to a pixel.
+            slack = .04 if kind == "free" else 1e-4
+            self.assertAlmostEqual(x, expected[0], delta=slack)
+            self.assertAlmostEqual(y, expected[1], delta=slack)
+            # Heights of a file have 32 bits.
+            self.assertAlmostEqual(z, .25, delta=1e-6)
+            if radius:
+                self.assertAlmostEqual(found["circle"]["radius"], radius,
+                                       delta=1e-4)
+            else:
+                self.assertIsNone(found["circle"])
+        # From the hole's centre to the plate's corner.
+        self.browser.click(*self.on_page(17, 27))
+        self.assertIn("R 2.000 ⌀ 4.000", self.browser.text("distance"))
+        self.browser.click(*self.on_page(10, 20))
+        told = self.browser.text("distance")
+        for text in (f"{98**.5:.3f} mm", "Δx -7.000", "Δy -7.000",
+                     "∠ -135.00°", "R 2.000 ⌀ 4.000"):
+            self.assertIn(text, told)
+        self.assertNotIn("Δz", told)
+
+    def test_what_a_click_takes_is_shown(self):
+        for theme, rgb in ("light", (11, 122, 91)), ("dark", (79, 214, 171)):
+            self.open("plate.html", f"theme={theme}&layer=3&view=layer")
+            self.browser.press("m")
+            self.target(20, 20, (2, 2))
+            x, y = self.on_page(20, 20)
+            picture = self.browser.screenshot()
+            for dx, dy in ((-5.5, 0), (5.5, 0), (0, -5.5), (0, 5.5)):
+                self.assertEqual(picture.at(x + dx, y + dy), rgb)
+            self.browser.press("Escape")
+            self.browser.settle()
+            self.assertNotEqual(self.browser.screenshot().at(x + 5.5, y), rgb)
+
+    def test_walls_and_gaps_are_as_thick_as_they_are(self):
+        thickness, gap, turn = .8, 1.3, 30
+        with open(self.path("walls.scad"), "w", encoding="utf-8") as file:
+            file.write(f"""rotate({turn}) for (i = [0, 1])
+              translate([0, i * {thickness + gap}, 0])
+                cube([12, {thickness}, 1]);""")
+        lamina("view", self.path("walls.scad"), "--layer", "0.1", "-o",
+               self.path("walls.html"))
+        self.open("walls.html", "theme=light&layer=3&view=layer")
+        self.browser.press("w")
+        c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+        for along in (3, 5.3, 8.9):
+            for across, kind, length in [
+                    (.3 * thickness, "wall", thickness),
+                    (thickness + .6 * gap, "gap", gap),
+                    (thickness + gap + .5, "wall", thickness)]:
+                ends = self.target(c * along - s * across,
+                                   s * along + c * across)
+                self.assertEqual([end["kind"] for end in ends], [kind] * 2)
+                dx, dy, dz = (b - a for a, b in zip(ends[0]["at"],
+                                                    ends[1]["at"]))
+                # Faces are rounded to 1e-4 mm.
+                self.assertAlmostEqual(math.hypot(dx, dy), length, delta=2e-4)
+                self.assertAlmostEqual(abs(-s * dx + c * dy), length,
+                                       delta=2e-4)
+                self.assertEqual(dz, 0)
+                # A click keeps it.
+                px, py = self.on_page(c * along - s * across,
+                                      s * along + c * across)
+                self.browser.click(px, py)
+                self.assertIn(f"{kind} {length:.3f} mm",
+                              self.browser.text("distance"))
+        # Beside the part there is neither.
+        self.assertEqual(self.target(-1, -1), [])
+        self.browser.click(*self.on_page(-1, -1))
+        self.assertIn("No wall and no gap", self.browser.text("distance"))
+
+    def test_chords_are_the_shortest_ones(self):
+        found = self.evaluate_on_plate("""
+          const ring = (count, radius, turn) => Float64Array.from(
+              {length: 2 * count}, (_, i) => radius * (i % 2 ? Math.sin : Math.cos)(
+                  turn * 2 * Math.PI * (i >> 1) / count));
+          // A wedge: across its bisector.
+          const half = .3;
+          const wedge = new SnapGrid([Float64Array.of(0, 0,
+              20, -20 * Math.tan(half), 20, 20 * Math.tan(half))]);
+          const wedges = [1, 3.7, 9].map((x) => wedge.chordAt(x, 0).length / (2 * x * Math.tan(half)));
+          // A ring: its width.
+          const width = new SnapGrid([ring(360, 10, 1), ring(360, 8, -1)]);
+          const widths = Array.from({length: 40}, (_, i) =>
+            width.chordAt(8.2 * Math.cos(i), 8.2 * Math.sin(i)).length);
+          // A star with a hole, by all directions and all edges.
+          const loops = [Float64Array.from({length: 90}, (_, i) =>
+            (i % 4 < 2 ? 11 : 5) * (i % 2 ? Math.sin : Math.cos)((i >> 1) * 2 * Math.PI / 45)),
+            ring(17, 2, -1)];
+          const star = new SnapGrid(loops);
+          const edges = edgesOf(loops);
+          const brute = (x, y) => {
+            let least = Infinity;
+            for (let k = 0; k < 3600; ++k) {
+              const [dx, dy] = [Math.cos(k * Math.PI / 3600), Math.sin(k * Math.PI / 3600)];
+              let [ahead, back] = [Infinity, Infinity];
+              for (let i = 0; i < edges.length; i += 4) {
+                const [ax, ay, bx, by] = [edges[i] - x, edges[i + 1] - y, edges[i + 2] - x, edges[i + 3] - y];
+                const [a, b] = [dx * ay - dy * ax, dx * by - dy * bx];
+                if ((a > 0) === (b > 0)) continue;
+                const t = dx * (ax + a / (a - b) * (bx - ax)) + dy * (ay + a / (a - b) * (by - ay));
+                if (t > 0) ahead = Math.min(ahead, t);
+                else back = Math.min(back, -t);
+              }
+              least = Math.min(least, ahead + back);
+            }
+            return least;
+          };
+          const differences = [];
+          for (let x = -10.03; x < 11; x += 2.1) {
+            for (let y = -10.07; y < 11; y += 2.3) {
+              const chord = star.chordAt(x, y);
+              const least = brute(x, y);
+              differences.push(!chord ? (least === Infinity ? 0 : 99) : chord.length - least);
+            }
+          }
+          return {wedges, widths, differences};""")
+        for ratio in found["wedges"]:
+            self.assertAlmostEqual(ratio, 1, delta=1e-12)
+        sagitta = 1 - math.cos(math.pi / 360)
+        for width in found["widths"]:
+            self.assertGreater(width, 2 - 10 * sagitta - 1e-9)
+            self.assertLess(width, 2 + 8 * sagitta)
+        for difference in found["differences"]:
+            # What is found is no longer than any of those tried.
+            self.assertLess(difference, 1e-9)
+            self.assertGreater(difference, -.05)
+
+    def evaluate_on_plate(self, body):
+        self.open("plate.html")
+        return self.browser.evaluate(f"(() => {{{body}}})()")
+
+    def test_circles_are_those_of_the_corners(self):
+        found = self.evaluate_on_plate("""
+          const arc = (cx, cy, radius, from, to, count) => Array.from({length: count + 1}, (_, i) => {
+            const angle = (from + (to - from) * i / count) * Math.PI / 180;
+            return [cx + radius * Math.cos(angle), cy + radius * Math.sin(angle)];
+          });
+          const loop = (...points) => Float64Array.from(points.flat(2));
+          const rounded = (value) => Math.round(value * 1000) / 1000;
+          const arcs = (points) => arcsOf(points).map(
+              ({center: [x, y], radius, count}) => [x, y, radius, count].map((v) => rounded(v) + 0));
+          const jittered = (points) => points.map((value, i) => value + 4e-4 * Math.sin(99 * i));
+          return {
+            square: arcs(loop([[0, 0], [9, 0], [9, 9], [0, 9]])),
+            hexagon: arcs(loop(arc(1, 2, 3, 0, 300, 5))),
+            hole: arcs(jittered(loop(arc(5, 6, 2, 360, 10, 35)))),
+            rounded: arcs(loop(arc(17, 7, 3, 0, 90, 8), arc(3, 7, 3, 90, 180, 8),
+                arc(3, 3, 3, 180, 270, 8), arc(17, 3, 3, 270, 360, 8))),
+            slot: arcs(loop(arc(20, 0, 2.5, -90, 90, 16), arc(0, 0, 2.5, 90, 270, 16))),
+            flat: arcs(loop(arc(0, 0, 5, 30, 330, 50))),
+            zigzag: arcs(loop(Array.from({length: 40}, (_, i) => [i, i % 2]))),
+          };""")
+        self.assertEqual(found["square"], [])
+        self.assertEqual(found["zigzag"], [])
+        self.assertEqual(found["hexagon"], [[1, 2, 3, 6]])
+        [[x, y, radius, count]] = found["hole"]
+        self.assertAlmostEqual(x, 5, delta=1e-3)
+        self.assertAlmostEqual(y, 6, delta=1e-3)
+        self.assertAlmostEqual(radius, 2, delta=1e-3)
+        self.assertEqual(count, 36)
+        self.assertEqual(sorted(found["rounded"]), [
+            [3, 3, 3, 9], [3, 7, 3, 9], [17, 3, 3, 9], [17, 7, 3, 9]])
+        self.assertEqual(sorted(found["slot"]),
+                         [[0, 0, 2.5, 17], [20, 0, 2.5, 17]])
+        # Its flat side is no chord of it.
+        self.assertEqual(found["flat"], [[0, 0, 5, 51]])
+
+    def test_snapping_is_that_of_all_edges(self):
+        worst = self.evaluate_on_plate("""
+          const {layers} = viewer.part;
+          const grid = new SnapGrid(layers[2].contours);
+          const edges = edgesOf(layers[2].contours);
+          let worst = 0;
+          for (let x = -1.03; x < 12; x += .21) {
+            for (let y = -1.07; y < 12; y += .23) {
+              for (const reach of [.05, .4, 3, 1e4]) {
+                let nearest = Infinity;
+                for (let i = 0; i < edges.length; i += 2) {
+                  nearest = Math.min(nearest, Math.hypot(edges[i] - x, edges[i + 1] - y));
+                }
+                const found = grid.snap(x, y, reach);
+                if ((nearest < reach) !== (found !== null && found.kind === "end")) worst = Infinity;
+                if (nearest >= reach) continue;
+                worst = Math.max(worst, Math.abs(nearest -
+                    Math.hypot(found.place[0] - x, found.place[1] - y)));
+              }
+            }
+          }
+          return worst;""")
+        self.assertLess(worst, 1e-12)
+
+    def test_measuring_is_quick_in_a_layer_of_16000_corners(self):
+        times = self.evaluate_on_plate("""
+          const ring = (cx, cy, radius, count, turn) => Float64Array.from({length: 2 * count}, (_, i) => {
+            const angle = turn * 2 * Math.PI * (i >> 1) / count;
+            const r = radius * (1 + .1 * Math.sin(9 * angle));
+            return i % 2 ? cy + r * Math.sin(angle) : cx + r * Math.cos(angle);
+          });
+          const layer = {contours: [ring(50, 50, 60, 800, 1),
+            ...Array.from({length: 38}, (_, i) =>
+              ring(12 + 11 * (i % 8), 14 + 15 * (i >> 3), 4.5, 400, -1))]};
+          viewer.view.show([0, 0], [100, 100], ...viewer.room());
+          const times = {};
+          for (const mode of ["distance", "wall"]) {
+            viewer.measuring.toggle(mode);
+            const taken = Array.from({length: 201}, (_, i) => {
+              const begin = performance.now();
+              viewer.measuring.aim(layer, 0, viewer.view.toPage(
+                  [5 + 90 * (i * .618 % 1), 5 + 90 * (i * .382 % 1)]));
+              return performance.now() - begin;
+            });
+            // The first one makes the index.
+            times[mode] = taken.slice(1).sort((a, b) => a - b)[100];
+          }
+          return times;""")
+        self.assertLess(times["distance"], 4)
+        self.assertLess(times["wall"], 4)
+
+    def test_what_is_measured_is_copied(self):
+        self.open("plate.html", "layer=1")
+        self.browser.evaluate(
+            "navigator.clipboard.writeText = async (text) => {"
+            " window.copied = text; }")
+        self.browser.press("c")
+        self.browser.press("m")
+        self.browser.press("c")
+        self.assertIsNone(self.browser.evaluate("window.copied || null"))
+        self.browser.click(*self.on_page(10, 20))
+        self.browser.press("PageUp")
+        self.browser.click(*self.on_page(11.25, 25))
+        self.browser.press("c")
+        self.assertEqual(
+            self.browser.evaluate("window.copied"),
+            f"{(1.25**2 + 25 + 1)**.5:.3f} mm, Δx 1.250, Δy 5.000, Δz 1.000, "
+            f"∠ {math.degrees(math.atan2(5, 1.25)):.2f}°")
+        self.assertIn("Copied", self.browser.text("distance"))
+
+    def test_keys_measure(self):
+        self.open("plate.html", "layer=3")
+        self.set_part("cube([10, 10, 2]);")
+        self.browser.evaluate("document.getElementById('drawing').focus()")
+        self.browser.press("m")
+        number = self.browser.text("number")
+        # The cross begins in the middle, and goes to the right edge.
+        self.browser.press("ArrowLeft")
+        self.browser.press("Enter")
+        self.assertIn("second", self.browser.text("distance"))
+        for _ in range(5):
+            self.browser.press("ArrowRight", shift=True)
+        self.browser.press("Enter")
+        scale = self.browser.evaluate("viewer.view.scale")
+        self.assertIn(f"{50 / scale:.3f} mm", self.browser.text("distance"))
+        self.assertEqual(self.browser.text("number"), number)
+        self.browser.press("Escape")
+        self.browser.press("ArrowRight")
+        self.assertNotEqual(self.browser.text("number"), number)
+
+    # ---- The section in the solid
+
+    def test_dragging_with_shift_raises_and_lowers_the_section(self):
+        self.open("plate.html", "theme=light&layer=10&view=3d")
+        left, top, width, height = self.browser.place_of("solid")
+        x, y = left + width / 2, top + height / 2
+        number = lambda: int(self.browser.text("number").split()[0])
+        turned = self.browser.evaluate("[viewer.solid.yaw, viewer.solid.pitch]")
+        pixel = self.browser.evaluate("viewer.solid.heightOfPixel()")
+        pixels = 0.5 / pixel
+        self.browser.drag((x, y), (x, y + pixels), shift=True)
+        self.assertAlmostEqual(number(), 5, delta=1)
+        self.browser.drag((x, y), (x, y - 2 * pixels), shift=True)
+        self.assertAlmostEqual(number(), 15, delta=1)
+        self.browser.drag((x, y), (x, y - 900), shift=True)
+        self.assertEqual(number(), 20)
+        self.browser.drag((x, y), (x, y + 900), shift=True)
+        self.assertEqual(number(), 1)
+        self.assertEqual(self.browser.evaluate(
+            "[viewer.solid.yaw, viewer.solid.pitch]"), turned)
+
+    def test_the_grip_goes_with_the_section(self):
+        self.open("plate.html", "theme=light&view=3d")
+        number = lambda: int(self.browser.text("number").split()[0])
+        grip = lambda: [place + size / 2 for place, size in zip(
+            self.browser.place_of("grip")[:2], self.browser.place_of("grip")[2:])]
+        # Of the whole solid it is at the top.
+        x, y = grip()
+        pixels = 1 / self.browser.evaluate("viewer.solid.heightOfPixel()")
+        self.browser.drag((x, y), (x, y + pixels))
+        self.browser.settle()
+        self.assertAlmostEqual(number(), 10, delta=1)
+        self.assertFalse(self.browser.evaluate("viewer.isWhole"))
+        # The part's near side is larger than its middle.
+        self.assertAlmostEqual(grip()[1] - y, pixels, delta=.25 * pixels)
+
+    # ---- For all readers
+
+    def test_every_text_can_be_read(self):
+        """4.5 to 1, as WCAG 2 computes it."""
+        self.make_held()
+        for theme in ("light", "dark"):
+            self.open("held.html", f"theme={theme}")
+            self.browser.press("m")
+            ratios = self.browser.evaluate("""(() => {
+              const parse = (text) => {
+                const [r, g, b, a = 1] = text.match(/[\\d.]+/g).map(Number);
+                return {rgb: [r, g, b], a};
+              };
+              const over = (top, under) =>
+                top.rgb.map((value, i) => value * top.a + under[i] * (1 - top.a));
+              const light = (rgb) => rgb.map((v) => v / 255)
+                  .map((v) => v <= .04045 ? v / 12.92 : ((v + .055) / 1.055) ** 2.4)
+                  .reduce((sum, v, i) => sum + v * [.2126, .7152, .0722][i], 0);
+              const ratio = (a, b) => {
+                const [low, high] = [light(a), light(b)].sort((x, y) => x - y);
+                return (high + .05) / (low + .05);
+              };
+              const backgroundOf = (element) => {
+                if (!element) return [255, 255, 255];
+                const own = parse(getComputedStyle(element).backgroundColor);
+                return own.a === 1 ? own.rgb : over(own, backgroundOf(element.parentElement));
+              };
+              const named = (name) => rgbOf(color(name).slice(0, 7)).map((v) => 255 * v);
+              // On canvases, and on a card over the part.
+              const result = [["faint", "paper"], ["measure", "field"], ["ink", "field"]]
+                  .map(([text, under]) => [`${text} on ${under}`, ratio(named(text), named(under))]);
+              const card = parse(getComputedStyle(byId("distance")).backgroundColor);
+              for (const under of ["solid", "support", "field"]) {
+                for (const text of ["measure", "faint"]) {
+                  result.push([`${text} on a card on ${under}`,
+                    ratio(named(text), over(card, named(under)))]);
+                }
+              }
+              byId("keys").showModal();
+              byId("pointer").textContent = "x 1";
+              for (const element of document.body.querySelectorAll("*")) {
+                const hasText = [...element.childNodes].some(
+                    (node) => node.nodeType === 3 && node.textContent.trim());
+                if (!hasText || !element.checkVisibility() || element.closest(":disabled")) continue;
+                const style = getComputedStyle(element);
+                result.push([`${element.tagName} ${element.id} ${element.textContent.slice(0, 20)}`,
+                  ratio(parse(style.color).rgb, backgroundOf(element))]);
+              }
+              return result;
+            })()""")
+            self.assertGreater(len(ratios), 60)
+            for name, ratio in ratios:
+                self.assertGreaterEqual(ratio, 4.5, (theme, name))
+
+    def test_every_control_has_a_name_and_its_turn(self):
+        self.make_held()
+        self.open("held.html", "theme=light")
+        order = []
+        for _ in range(40):
+            self.browser.press("Tab")
+            order.append(self.browser.evaluate(
+                "document.activeElement.id || document.activeElement.tagName"))
+            if order[-1] == "slider":
+                break
+        buttons = [id for id in order if id not in ("BUTTON", "SUMMARY")]
+        self.assertEqual(buttons, [
+            "fit", "measure", "thickness", "below", "section", "orbit",
+            "supports", "marks", "theme", "help", "solid", "drawing", "play",
+            "slider"])
+        # The findings are between drawing and play.
+        listed = self.browser.evaluate(
+            "document.querySelectorAll('#findings > ol button,"
+            " #findings summary').length")
+        self.assertEqual(len(order), len(buttons) + listed)
+        nodes = self.browser.call("Accessibility.getFullAXTree")["nodes"]
+        controls = [node for node in nodes if not node["ignored"]
+                    and node["role"]["value"] in (
+                        "button", "slider", "image", "dialog", "toolbar",
+                        "complementary")]
+        self.assertGreaterEqual(len(controls), 17)
+        for node in controls:
+            self.assertTrue(node["name"]["value"].strip(), node)
+        self.assertEqual(self.browser.evaluate(
+            "document.getElementById('distance').ariaLive"), "polite")
+
+    def test_fields_keep_their_keys(self):
+        self.open("plate.html", "layer=3")
+        self.browser.evaluate("""(() => {
+          const field = document.createElement("input");
+          document.querySelector("main").prepend(field);
+          field.focus();
+        })()""")
+        number = self.browser.text("number")
+        for key in ("m", "w", "d", "ArrowUp", "PageUp", " "):
+            self.browser.press(key)
+        self.assertEqual(self.browser.text("number"), number)
+        self.assertIsNone(self.browser.evaluate("viewer.measuring.mode"))
+
+    def test_playing_jumps_where_motion_is_to_be_reduced(self):
+        seen = {}
+        for calm in ("reduce", "no-preference"):
+            self.browser.call("Emulation.setEmulatedMedia", features=[
+                {"name": "prefers-reduced-motion", "value": calm}])
+            self.open("plate.html", "layer=1&view=layer")
+            seen[calm] = self.browser.evaluate("""new Promise((resolve) => {
+              const seen = new Set();
+              viewer.play();
+              const begin = performance.now();
+              const look = () => {
+                seen.add(viewer.state.index);
+                if (performance.now() - begin < 600) requestAnimationFrame(look);
+                else resolve(seen.size);
+              };
+              look();
+            })""")
+        self.browser.call("Emulation.setEmulatedMedia", features=[])
+        self.assertEqual(seen["reduce"], 1)
+        self.assertGreater(seen["no-preference"], 4)
+
+    def test_all_words_come_from_one_table(self):
+        self.make_held()
+        with open(self.path("held.html"), encoding="utf-8") as file:
+            page = file.read()
+        begin = page.index("\nstartPage();\n</script>")
+        with open(self.path("words.html"), "w", encoding="utf-8") as file:
+            file.write(page[:begin] + """
+              window.english = [...document.querySelectorAll("[data-word]")]
+                  .map((element) => [element.textContent, word(element.dataset.word)]);
+              for (const element of document.querySelectorAll("[data-word-title]")) {
+                english.push([element.title, word(element.dataset.wordTitle)]);
+              }
+              for (const element of document.querySelectorAll("[data-word-label]")) {
+                english.push([element.ariaLabel, word(element.dataset.wordLabel)]);
+              }
+              for (const [key, entry] of Object.entries(kWords)) {
+                const marked = (text) => "«" + text.replace(/[A-Za-z]{2,}/g, "") + "»";
+                kWords[key] = typeof entry === "string" ? marked(entry) :
+                  {one: marked(entry.one), other: marked(entry.other)};
+              }
+              """ + page[begin:])
+        self.open("words.html", "theme=light")
+        # The page reads the same without its script.
+        for html, table in self.browser.evaluate("english"):
+            self.assertEqual(html, table)
+        self.browser.press("m")
+        x, y = self.on_page(0, 0)
+        self.browser.click(x, y)
+        self.browser.click(*self.on_page(6, 6))
+        left = self.browser.evaluate("""(() => {
+          // What the program says of the part is not in the table.
+          const told = [viewer.part.title, viewer.part.supports.text,
+            viewer.part.estimate, ...viewer.part.found.notes,
+            ...viewer.part.found.places.flatMap(({text, origin}) => [text, origin])];
+          const texts = [];
+          const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+          while (walk.nextNode()) {
+            if (walk.currentNode.parentElement.closest("script, noscript")) continue;
+            texts.push(walk.currentNode.textContent);
+          }
+          for (const element of document.body.querySelectorAll("*")) {
+            texts.push(element.title || "", element.ariaLabel || "",
+                element.getAttribute("aria-valuetext") || "");
+          }
+          return texts.map((text) => told.filter((known) => known)
+              .reduce((rest, known) => rest.replaceAll(known, ""), text))
+              .filter((text) => /[A-Za-z]{2,}/.test(text));
+        })()""")
+        self.assertEqual(left, [])
+
+    def test_it_works_without_inline_script_and_style(self):
+        with open(self.path("plate.html"), encoding="utf-8") as file:
+            page = file.read()
+        style = re.search("<style>(.*)</style>", page, re.DOTALL)[1]
+        script = re.search("<script>\n(.*)</script>\n</body>", page,
+                           re.DOTALL)[1]
+        page = page.replace(f"<style>{style}</style>",
+                            '<link rel="stylesheet" href="/style.css">')
+        page = page.replace(f"<script>\n{script}</script>",
+                            '<script src="/script.js"></script>')
+        script = ("window.violations = [];"
+                  "document.addEventListener('securitypolicyviolation',"
+                  " (event) => violations.push(event.violatedDirective));"
+                  + script)
+        files = {"/": ("text/html; charset=utf-8", page),
+                 "/style.css": ("text/css", style),
+                 "/script.js": ("text/javascript; charset=utf-8", script)}
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                kind, text = files.get(self.path, ("text/plain", ""))
+                self.send_response(200)
+                self.send_header("Content-Type", kind)
+                self.send_header(
+                    "Content-Security-Policy",
+                    "default-src 'none'; script-src 'self'; style-src 'self'; "
+                    "img-src 'self' data: blob:; connect-src 'self'")
+                self.end_headers()
+                self.wfile.write(text.encode())
+
+            def log_message(self, *_):
+                pass
+
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        try:
+            self.browser.open(f"http://127.0.0.1:{server.server_port}/"
+                              "#theme=light&layer=12&view=layer")
+            self.browser.press("m")
+            self.browser.press("t")
+            self.browser.press("t")
+            self.browser.press(" ")
+            self.browser.press(" ")
+            self.browser.press("s")
+            self.browser.settle()
+            self.assertEqual(self.browser.evaluate("violations"), [])
+            self.assertEqual(self.browser.evaluate(
+                "getComputedStyle(document.body).display"), "flex")
+        finally:
+            server.shutdown()
+            server.server_close()
 
     # ---- One part after another, as the studio shows them.
 

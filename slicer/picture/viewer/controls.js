@@ -330,7 +330,7 @@ class Viewer {
     }
     const {value, details} = this.measuring.describe();
     const more = [...details, ...words.length || !value ? words : [word("toCopy")]];
-    byId("distance").replaceChildren(value, make("small", ` ${more.join("  ")}`));
+    byId("distance").replaceChildren(value, make("small", ` ${more.join(" · ")}`));
   }
 
   // Looks what a click at a place of the drawing would measure.

@@ -110,8 +110,7 @@ class Measuring {
   draw({context, width, height}) {
     if (!this.mode) return;
     context.save();
-    context.strokeStyle = context.fillStyle = color("measure");
-    context.lineWidth = 2;
+    context.fillStyle = color("measure");
     this.drawLine(context, this.ends);
     for (const {at} of this.ends) {
       context.beginPath();
@@ -125,7 +124,16 @@ class Measuring {
   drawLine(context, ends) {
     context.beginPath();
     for (const {at} of ends) context.lineTo(...this.toPage(at));
-    context.stroke();
+    this.strokeOnAll(context);
+  }
+
+  // Strokes what is seen on the part as on the field around it.
+  strokeOnAll(context) {
+    for (const [name, width] of [["field", 5], ["measure", 2]]) {
+      context.strokeStyle = color(name);
+      context.lineWidth = width;
+      context.stroke();
+    }
   }
 
   // A sign for what a click takes, and its name.
@@ -136,7 +144,8 @@ class Measuring {
       this.drawLine(context, target);
       const [a, b] = target.map(({at}) => at);
       const key = target[0].kind === "wall" ? "wallIs" : "gapIs";
-      this.drawWords(context, this.toPage(b), width, height,
+      const middle = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+      this.drawWords(context, this.toPage(middle), width, height,
           word(key, fixed(Math.hypot(b[0] - a[0], b[1] - a[1]), 3)));
       return;
     }
@@ -152,6 +161,7 @@ class Measuring {
   drawCircle(context, {center, radius}) {
     const [x, y] = this.toPage(center);
     context.save();
+    context.strokeStyle = color("measure");
     context.lineWidth = 1;
     context.setLineDash([5, 4]);
     context.beginPath();
@@ -183,7 +193,7 @@ class Measuring {
       context.moveTo(x + s, y);
       context.arc(x, y, s, 0, 2 * Math.PI);
     }
-    context.stroke();
+    this.strokeOnAll(context);
   }
 
   // On a card beside a place, on the canvas.
@@ -199,8 +209,7 @@ class Measuring {
     context.roundRect(left, top, long, 21, 7);
     context.fill();
     context.stroke();
-    context.fillStyle = context.strokeStyle = color("measure");
-    context.lineWidth = 2;
+    context.fillStyle = color("measure");
     context.fillText(words, left + 7, top + 15);
   }
 }

@@ -6,103 +6,128 @@
 const kArcCorners = 6;       // at least, of a circle
 const kArcError = .003;      // of corners from their circle [mm]
 const kArcSweep = Math.PI / 3;  // at least, of a circle
-const kArcStep = Math.PI / 3 * 1.01;  // at most, from corner to corner: hexagons count
-const kArcUneven = 3;        // longest step of a circle to its median
+const kArcChord = 1.01;      // at most, of its radius: hexagons count
+const kArcUneven = 2.5;      // longest chord of a circle to the mean of all
 const kDirections = 180;     // in which chords are looked for
 const kRefined = 4;          // of the best of these
 const kRefinements = 40;     // of each; halves what is left more than 25 times
 const kGolden = (Math.sqrt(5) - 1) / 2;
 
-// The circle nearest to points (Kåsa 1976): {center, radius}, or null for points on
-// a line. Points are flat: x, y, x, y, …
-function fitCircle(points) {
-  const count = points.length / 2;
-  const [x0, y0] = points;
-  let [sx, sy, sxx, sxy, syy, sxr, syr, sr] = [0, 0, 0, 0, 0, 0, 0, 0];
-  for (let i = 0; i < points.length; i += 2) {
-    const x = points[i] - x0;
-    const y = points[i + 1] - y0;
-    const square = x * x + y * y;
-    sx += x; sy += y;
-    sxx += x * x; sxy += x * y; syy += y * y;
-    sxr += x * square; syr += y * square; sr += square;
+// `count` corners of a loop from the corner `first` on, around its end where need be.
+class Run {
+  constructor(loop, first, count) {
+    this.loop = loop;
+    this.first = first;
+    this.count = count;
   }
-  const [a, b, c] = [sxx - sx * sx / count, sxy - sx * sy / count, syy - sy * sy / count];
-  const [p, q] = [(sxr - sx * sr / count) / 2, (syr - sy * sr / count) / 2];
-  const determinant = a * c - b * b;
-  if (!(determinant > 1e-12 * (a + c) ** 2)) return null;
-  const x = (p * c - q * b) / determinant;
-  const y = (q * a - p * b) / determinant;
-  const radius = Math.sqrt(x * x + y * y + (sr - 2 * x * sx - 2 * y * sy) / count);
-  return {center: [x0 + x, y0 + y], radius};
-}
 
-// The circle that all points lie on, in even steps one way around, or null.
-function circleOf(points) {
-  const circle = fitCircle(points);
-  if (!circle) return null;
-  const {center: [x, y], radius} = circle;
-  const steps = [];
-  let before = null;
-  for (let i = 0; i < points.length; i += 2) {
-    const dx = points[i] - x;
-    const dy = points[i + 1] - y;
-    if (Math.abs(Math.hypot(dx, dy) - radius) > kArcError) return null;
-    if (before) {
-      steps.push(Math.atan2(before[0] * dy - before[1] * dx, before[0] * dx + before[1] * dy));
+  // Calls visit(x, y) with places from the first one; returns whether all of them
+  // did not return false.
+  every(visit) {
+    const {loop} = this;
+    let i = 2 * this.first % loop.length;
+    const [x0, y0] = [loop[i], loop[i + 1]];
+    for (let k = 0; k < this.count; ++k) {
+      if (visit(loop[i] - x0, loop[i + 1] - y0) === false) return false;
+      i += 2;
+      if (i === loop.length) i = 0;
     }
-    before = [dx, dy];
+    return true;
   }
-  const turn = Math.sign(steps[0]);
-  const lengths = Float64Array.from(steps, (step) => step * turn).sort();
-  const longest = lengths[lengths.length - 1];
-  if (!(lengths[0] > 0) || longest > kArcStep ||
-      longest > kArcUneven * lengths[lengths.length >> 1]) return null;
-  return {...circle, sweep: lengths.reduce((sum, length) => sum + length, 0)};
+
+  // The nearest circle (Kåsa 1976), from the first corner: {x, y, radius}, or null for
+  // corners on a line.
+  fit() {
+    const {count} = this;
+    let [sx, sy, sxx, sxy, syy, sxr, syr, sr] = [0, 0, 0, 0, 0, 0, 0, 0];
+    this.every((x, y) => {
+      const square = x * x + y * y;
+      sx += x; sy += y;
+      sxx += x * x; sxy += x * y; syy += y * y;
+      sxr += x * square; syr += y * square; sr += square;
+    });
+    const [a, b, c] = [sxx - sx * sx / count, sxy - sx * sy / count, syy - sy * sy / count];
+    const [p, q] = [(sxr - sx * sr / count) / 2, (syr - sy * sr / count) / 2];
+    const determinant = a * c - b * b;
+    if (!(determinant > 1e-12 * (a + c) ** 2)) return null;
+    const x = (p * c - q * b) / determinant;
+    const y = (q * a - p * b) / determinant;
+    return {x, y, radius: Math.sqrt(x * x + y * y + (sr - 2 * x * sx - 2 * y * sy) / count)};
+  }
+
+  // The circle that all corners lie on, in even steps one way around, or null.
+  circle() {
+    const circle = this.fit();
+    if (!circle) return null;
+    const {x: cx, y: cy, radius} = circle;
+    let [bx, by, turn, longest, sum] = [0, 0, 0, 0, 0];
+    const isOne = this.every((x, y) => {
+      const [dx, dy] = [x - cx, y - cy];
+      if (Math.abs(Math.sqrt(dx * dx + dy * dy) - radius) > kArcError) return false;
+      if (bx === 0 && by === 0) {  // the first corner
+        [bx, by] = [dx, dy];
+        return true;
+      }
+      const cross = bx * dy - by * dx;
+      if (!(cross * (turn ||= Math.sign(cross)) > 0)) return false;
+      const chord = Math.sqrt((dx - bx) ** 2 + (dy - by) ** 2);
+      longest = Math.max(longest, chord);
+      sum += chord;
+      [bx, by] = [dx, dy];
+      return true;
+    });
+    const isEven = longest <= kArcUneven * sum / (this.count - 1);
+    return isOne && isEven && longest <= kArcChord * radius ? circle : null;
+  }
+
+  // {center, radius, sweep, first, count}
+  arcOn({x: cx, y: cy, radius}) {
+    let [sweep, bx, by] = [0, -cx, -cy];
+    this.every((x, y) => {
+      const [dx, dy] = [x - cx, y - cy];
+      sweep += Math.abs(Math.atan2(bx * dy - by * dx, bx * dx + by * dy));
+      [bx, by] = [dx, dy];
+    });
+    const center = [this.loop[2 * this.first] + cx, this.loop[2 * this.first + 1] + cy];
+    return {center, radius, sweep, first: this.first, count: this.count};
+  }
 }
 
-// The circles of a loop: [{center, radius, sweep, first, count}], of `count` corners
-// from the corner `first` on, around the end of the loop where need be.
+// The circles of a loop, each of a run of its corners.
 function arcsOf(loop) {
   const corners = loop.length / 2;
-  const pointsOf = (first, count) => {
-    const points = new Float64Array(2 * count);
-    for (let i = 0; i < count; ++i) {
-      const corner = (first + i) % corners;
-      points[2 * i] = loop[2 * corner];
-      points[2 * i + 1] = loop[2 * corner + 1];
-    }
-    return points;
-  };
   if (corners < kArcCorners) return [];
   // The whole loop, with the step that closes it.
-  const whole = circleOf(pointsOf(0, corners + 1));
-  if (whole) return [{...whole, first: 0, count: corners}];
+  const whole = new Run(loop, 0, corners + 1).circle();
+  if (whole) return [new Run(loop, 0, corners).arcOn(whole)];
   const begin = afterLongestEdge(loop);
   const arcs = [];
   for (let i = 0; i + kArcCorners <= corners;) {
-    const arcTo = (count) => circleOf(pointsOf(begin + i, count));
-    // Double the count while it is a circle, and halve the step from there.
-    let count = 0;
-    let arc = null;
-    const most = corners - i;
-    for (let next = kArcCorners; next <= most && count < next; next = Math.min(most, 2 * next)) {
-      const found = arcTo(next);
-      if (!found) break;
-      [count, arc] = [next, found];
-    }
-    for (let step = count; step >= 1; step = step >> 1) {
-      const found = count + step <= most && arcTo(count + step);
-      if (found) [count, arc] = [count + step, found];
-    }
+    const run = longestRun(loop, (begin + i) % corners, corners - i);
+    const arc = run && run.arcOn(run.circle());
     if (arc && arc.sweep >= kArcSweep) {
-      arcs.push({...arc, first: (begin + i) % corners, count});
-      i += count - 1;
+      arcs.push(arc);
+      i += arc.count - 1;
     } else {
-      i += Math.max(1, count >> 2);
+      i += run ? Math.max(1, run.count >> 1) : 1;
     }
   }
   return arcs;
+}
+
+// The longest run from a corner on that lies on a circle, `most` corners at most; null
+// where there is none. Its length is doubled while it does, and then grows by smaller
+// and smaller powers of two.
+function longestRun(loop, first, most) {
+  const runOf = (count) => {
+    const run = new Run(loop, first, count);
+    return count <= most && run.circle() ? run : null;
+  };
+  let best = runOf(kArcCorners);
+  if (!best) return null;
+  for (let run = best; run; run = runOf(2 * best.count)) best = run;
+  for (let step = 2 ** Math.ceil(Math.log2(best.count)); step >= 1; step /= 2) best = runOf(best.count + step) || best;
+  return best;
 }
 
 function afterLongestEdge(loop) {
