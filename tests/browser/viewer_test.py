@@ -1448,6 +1448,23 @@ class ViewerTest(unittest.TestCase):
         }})()""")
         self.assertEqual(grown, [0, 0, True])
 
+    def test_a_solid_that_the_browser_has_lost_is_made_anew(self):
+        self.open("plate.html", "theme=light&layer=5&view=3d")
+        left, top, width, height = self.browser.place_of("solid")
+        picture = self.browser.screenshot()
+        self.browser.evaluate("""new Promise((resolve) => {
+          const {canvas, gl} = viewer.solid;
+          const lost = gl.getExtension("WEBGL_lose_context");
+          canvas.addEventListener("webglcontextlost", () => setTimeout(() => lost.restoreContext()));
+          canvas.addEventListener("webglcontextrestored", () => resolve());
+          lost.loseContext();
+        }).then(() => viewer.opened)""")
+        self.browser.settle()
+        again = self.browser.screenshot()
+        for y in range(int(top), int(top + height), 7):
+            for x in range(int(left), int(left + width), 7):
+                self.assertEqual(picture.at(x, y), again.at(x, y))
+
     def test_the_solid_before_is_shown_until_the_next_is_made(self):
         self.open("plate.html", "theme=light&view=3d")
         shown = self.browser.evaluate(f"""(async () => {{

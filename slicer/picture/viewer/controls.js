@@ -112,14 +112,16 @@ class Viewer {
   // Makes the solid, which takes a while, or says why there is none.
   async openSolid() {
     byId("working").hidden = false;
+    let fault = "";
     try {
       if (!await this.solid.show(this.part, () => this.draw())) return false;
     } catch (error) {
-      byId("solid").hidden = true;
-      byId("no-solid").hidden = false;
-      byId("no-solid").textContent = error.message;
+      fault = error.message;
     }
     byId("working").hidden = true;
+    byId("solid").hidden = fault !== "";
+    byId("no-solid").hidden = fault === "";
+    byId("no-solid").textContent = fault;
     return true;
   }
 
@@ -559,6 +561,11 @@ class Viewer {
     const {canvas} = this.solid;
     const stretch = (from, to, hold) =>
       this.zoomSolid(Math.max(1, distance(to, hold)) / Math.max(1, distance(from, hold)));
+    canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.solid.forget();
+      this.opened = this.openSolid();
+    });
     this.bindCanvas(canvas, (factor) => this.zoomSolid(factor), (from, to, hold, event) => {
       if (hold) stretch(from, to, hold);
       else if (event.shiftKey) this.raise(from[1] - to[1]);

@@ -126,7 +126,9 @@ function longestRun(loop, first, most) {
   let best = runOf(kArcCorners);
   if (!best) return null;
   for (let run = best; run; run = runOf(2 * best.count)) best = run;
-  for (let step = 2 ** Math.ceil(Math.log2(best.count)); step >= 1; step /= 2) best = runOf(best.count + step) || best;
+  for (let step = 2 ** Math.ceil(Math.log2(best.count)); step >= 1; step /= 2) {
+    best = runOf(best.count + step) || best;
+  }
   return best;
 }
 

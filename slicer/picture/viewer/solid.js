@@ -22,6 +22,8 @@ const kPieces = 40;           // across the part: longer edges are divided
 const kNarrowest = 1e-5;      // of the part's size: what is narrower is not seen
 const kQuad = [0, 1, 2, 0, 2, 3];  // corners of its two triangles
 const kPatience = 8;          // of the page, while the solid is made [ms]
+const kWaitFirst = 16;        // at most, for the page to be idle: for the first solid
+const kWaitFull = 100;        // of a part, and for the full one [ms]
 
 // How deep places lie in a layer, as far as `reach`; less than 0 outside. Edges
 // near a place are looked at in rings of cells, until no nearer one can come.
@@ -389,14 +391,14 @@ class PlateMesh {
   }
 }
 
-// Runs what yields between its steps while the page has nothing else to do, as long
-// as isWanted(). Returns whether all has run.
-async function runInIdleTime(steps, isWanted) {
+// Runs what yields between its steps while the page has nothing else to do, or has had
+// enough to do for `longest` ms, as long as isWanted(). Returns whether all has run.
+async function runInIdleTime(steps, longest, isWanted) {
   let end = 0;
   for (const _ of steps) {
     if (performance.now() < end) continue;
     await new Promise((resolve) => window.requestIdleCallback ?
-      requestIdleCallback(resolve, {timeout: 100}) : setTimeout(resolve));
+      requestIdleCallback(resolve, {timeout: longest}) : setTimeout(resolve));
     if (!isWanted()) return false;
     end = performance.now() + kPatience;
   }
@@ -488,12 +490,18 @@ function rgbOf(name) {
 class Solid {
   constructor(canvas) {
     this.canvas = canvas;
-    this.gl = null;
     this.wanted = null;  // the part that is made or shown
-    this.part = null;    // the part that is shown, and what is drawn of it
+    this.first = null;   // fulfilled when the first solid is made that now is
+    this.forget();
+    this.reset();
+  }
+
+  // Begins anew where the browser has lost what was drawn.
+  forget() {
+    this.gl = null;
+    this.part = null;  // the part that is shown, and what is drawn of it
     this.bodies = [];
     this.marks = null;
-    this.reset();
   }
 
   reset() {
@@ -504,24 +512,36 @@ class Solid {
 
   // Makes what is drawn of a part, a rough solid first where the full one takes
   // long, and calls draw() with each. Until the first is made, the part before is
-  // shown. Returns false where another part came meanwhile, and throws where there
-  // is no WebGL.
+  // shown; then it is finished, even where yet another part is waiting, so that a row
+  // of parts is seen to change. Returns false where another part came meanwhile, and
+  // throws where there is no WebGL.
   async show(part, draw) {
     this.wanted = part;
     this.open();
+    const isWanted = () => this.wanted === part;
+    while (this.first) {
+      await this.first.catch(() => {});
+      if (!isWanted()) return false;
+    }
     const bodies = this.bodiesOf(part);
     const full = bodies.map((body) => new PlateMesh(body, kFull));
     const corners = full.reduce((sum, mesh) => sum + mesh.corners, 0);
-    const rough = corners > 2 * kFirst.corners ?
-      bodies.map((body) => new PlateMesh(body, kFirst)) : [];
-    for (const meshes of [rough, full].filter(({length}) => length > 0)) {
-      for (const mesh of meshes) {
-        if (!await runInIdleTime(mesh.build(), () => this.wanted === part)) return false;
-      }
-      if (this.wanted !== part) return false;
-      if (this.part !== part) this.take(part, bodies);
-      bodies.forEach((body, i) => this.takeMesh(body, meshes[i]));
-      draw();
+    const isLarge = corners > 2 * kFirst.corners;
+    const first = isLarge ? bodies.map((body) => new PlateMesh(body, kFirst)) : full;
+    this.first = this.build(first, kWaitFirst, () => true).finally(() => { this.first = null; });
+    await this.first;
+    this.take(part, bodies, first);
+    draw();
+    if (!isLarge) return isWanted();
+    if (!isWanted() || !await this.build(full, kWaitFull, isWanted) || !isWanted()) return false;
+    this.takeMeshes(full);
+    draw();
+    return true;
+  }
+
+  async build(meshes, longest, isWanted) {
+    for (const mesh of meshes) {
+      if (!await runInIdleTime(mesh.build(), longest, isWanted)) return false;
     }
     return true;
   }
@@ -540,7 +560,7 @@ class Solid {
   }
 
   // Shows another part from now on, and frees what was made of the one before.
-  take(part, bodies) {
+  take(part, bodies, meshes) {
     const {gl} = this;
     for (const body of this.bodies) [body.surface, body.section].forEach((old) => this.free(old));
     if (this.marks) this.free(this.marks);
@@ -552,12 +572,15 @@ class Solid {
     }
     this.marks = this.corners(gl);
     this.fill(gl, this.marks, this.markPlaces());
+    this.takeMeshes(meshes);
   }
 
-  takeMesh(body, mesh) {
-    body.mesh = mesh;
-    body.cut = null;
-    this.fillQuads(this.gl, body.surface, mesh.quads);
+  takeMeshes(meshes) {
+    this.bodies.forEach((body, i) => {
+      body.mesh = meshes[i];
+      body.cut = null;
+      this.fillQuads(this.gl, body.surface, body.mesh.quads);
+    });
   }
 
   // The part, what of it has a color, and the supports if there are any: layers in
