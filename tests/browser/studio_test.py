@@ -234,6 +234,23 @@ class FormTest(StudioTest):
         self.click("undo")
         self.assertEqual(self.shown("width"), "20")
 
+    def test_an_arrow_key_that_is_held_is_one_gesture(self):
+        self.open()
+        self.js(self.field("size", "input[type=range]") + ".focus()")
+        for _ in range(5):
+            self.press("ArrowRight")
+        self.assertEqual(self.values(), {"size": "59"})
+        self.press("z", modifiers=2)
+        self.assertEqual(self.values(), {})
+
+    def test_undo_gives_up_what_is_half_typed(self):
+        self.open()
+        self.enter("size", "60", "input[type=number]")
+        self.enter("size", "6", "input[type=number]", ends=False)
+        self.press("z", modifiers=2)
+        self.assertEqual(self.values(), {})
+        self.assertEqual(self.shown("size", "input[type=number]"), "54")
+
     def test_keys_of_the_view_are_letters_in_fields(self):
         self.open()
         self.js("viewer.choose(3)")
@@ -282,7 +299,7 @@ class FileTest(StudioTest):
 
     def test_the_field_with_the_focus_keeps_text_and_caret(self):
         self.open()
-        self.js(f"(() => {{const e = {self.field('finish', 'input')}; e.focus();"
+        self.js(f"(() => {{const e = {self.field('face', 'input')}; e.focus();"
                 " e.value = 'polished'; e.setSelectionRange(3, 3);"
                 " e.dispatchEvent(new Event('input', {bubbles: true}));})()")
         parameters = [{"name": "first", "group": "Global", "type": "number",
@@ -295,7 +312,7 @@ class FileTest(StudioTest):
             ["polished", 3])
         self.assertIsNone(self.js("document.querySelector('[data-name=prongs]')"))
         self.type("x")
-        self.assertEqual(self.values(), {"finish": "polxished"})
+        self.assertEqual(self.values(), {"face": "polxished"})
 
     def test_a_number_half_typed_stays(self):
         self.open()
@@ -417,6 +434,13 @@ class WireTest(StudioTest):
         kinds = [kind for kind, _, _ in seen]
         self.assertGreater(kinds.count("layer"), 15)
         self.assertGreater(kinds.count("part"), 3)
+
+    def test_layers_of_a_slow_program_come_while_the_slider_moves(self):
+        self.open()
+        self.follow()
+        self.studio.delays = (0.2, 0.3)
+        seen = self.check(200, 30)
+        self.assertGreater(len(seen), 4)
 
     def test_a_slow_program_does_not_keep_back_the_newest_choice(self):
         self.open()
@@ -635,6 +659,7 @@ class UseTest(StudioTest):
         # A moves with what is shown: the same place on both panes.
         left, top, _, _ = self.browser.place_of("kept-drawing")
         self.assertEqual(at(1, 7.5), colors["solid"])
+        self.assertEqual(at(26, 1), colors["solid"])
         self.assertEqual(at(28.5, 1), colors["field"])
         self.click("apply-kept")
         self.assertEqual(self.values(), {})

@@ -3,7 +3,7 @@
 
 class Actions {
   // wire      asks the program
-  // notice    gets news, as texts
+  // notice    gets news, as texts, and whether they are shown until others come
   // messages  gets those of a file that could not be made
   constructor(wire, {notice, messages}) {
     Object.assign(this, {wire, notice, messages});
@@ -39,7 +39,7 @@ class Actions {
   }
 
   makeFile(format, title) {
-    this.notice(say("making", title));
+    this.notice(say("making", title), true);
     return this.ask("/output", {format}, {
       200: ({file, name}) => {
         download(file, name);

@@ -98,6 +98,7 @@ class Comparison {
           viewer.drag(from, to, hold);
           viewer.draw();
         });
+    byId("drawing-pane").append(byId("legend"));
     byId("keep").disabled = false;
   }
 

@@ -163,7 +163,8 @@ class ColorControl extends TextControl {
 
   show(text) {
     super.show(text);
-    this.picker.value = hexOf(text);
+    if (this.text !== text) this.picker.value = hexOf(text);
+    this.text = text;
   }
 }
 

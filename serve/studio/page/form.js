@@ -101,6 +101,12 @@ class SettingsForm {
     this.show();
   }
 
+  // Without what no setting can have.
+  possible(settings) {
+    return Object.fromEntries(Object.entries(settings).map(([name, value]) =>
+      [name, valueOf(this.fields.get(name).parameter, textOf(value)) ?? this.choice.ownSettings[name]]));
+  }
+
   fieldOf(setting) {
     const {name, initial} = setting;
     const set = (value) => this.choice.setSetting(name, value);

@@ -24,7 +24,7 @@ class Studio {
     this.settings = new SettingsForm(byId("settings"), this.choice);
     this.messages = new MessageList();
     this.figures = new Figures();
-    const notice = (text) => this.notice(text);
+    const notice = (text, isLasting) => this.notice(text, isLasting);
     this.sets = new Sets(this.choice, {notice, apply: (values) => this.replace(values)});
     this.comparison = new Comparison({
       shown: () => this.shown,
@@ -38,6 +38,8 @@ class Studio {
         {notice, messages: (messages) => this.messages.show(messages)});
     this.bindButtons();
     this.bindKeys();
+    byId("keys").querySelector("dl").append(...Object.entries(kStudioKeys).flatMap(
+        ([key, text]) => [build("dt", {textContent: key}), build("dd", {textContent: text})]));
     window.addEventListener("hashchange", () => this.followLink());
   }
 
@@ -67,6 +69,7 @@ class Studio {
 
   // Shows the choice.
   show() {
+    byId("design").value = byId("title").textContent = document.title = this.choice.design;
     this.form.show();
     this.settings.show();
     this.sets.mark();
@@ -107,13 +110,11 @@ class Studio {
     byId("design").hidden = hello.designs.length < 2;
     if (isFirst) {
       const {design, values, settings} = choice.readLink(location.hash.slice(1));
-      choice.settings = settings;
+      choice.settings = this.settings.possible(settings);
       choice.chooseDesign(hello.designs.includes(design) ? design : hello.design, values);
     } else if (!hello.designs.includes(choice.design)) {
       this.chooseDesign(hello.design);
     }
-    byId("design").value = choice.design;
-    if (!this.viewer) byId("title").textContent = choice.design;
     this.show();
   }
 
@@ -165,6 +166,7 @@ class Studio {
       this.tell("ready", milliseconds ? say("timed",
           ...[milliseconds.layer, milliseconds.all].map((time) => fixed(time, 0))) : "");
     } else {
+      this.figures.dim();
       this.tell("failed", say(this.shown ? "failed" : "failed-first"));
     }
     document.documentElement.dataset.ready = "true";
@@ -183,15 +185,17 @@ class Studio {
   // state: ready, working, failed or lost
   tell(state, text) {
     clearTimeout(this.workTimer);
+    byId("state").setAttribute("aria-live", state === "failed" || state === "lost" ? "polite" : "off");
     byId("state").dataset.state = state;
     byId("state").textContent = text;
     byId("state").title = text;
   }
 
-  notice(text) {
+  notice(text, isLasting = false) {
     byId("notice").textContent = text;
     byId("notice").hidden = false;
     clearTimeout(this.noticeTimer);
+    if (isLasting) return;
     this.noticeTimer = setTimeout(() => { byId("notice").hidden = true; }, kNoticeTime);
   }
 
@@ -213,10 +217,9 @@ class Studio {
   followLink() {
     if (location.hash === this.link || this.hello === null) return;
     const {design, values, settings} = this.choice.readLink(location.hash.slice(1));
-    this.choice.settings = settings;
+    this.choice.settings = this.settings.possible(settings);
     if (design !== this.choice.design && this.hello.designs.includes(design)) {
       this.chooseDesign(design);
-      byId("design").value = design;
     }
     this.replace(values);
   }

@@ -3,14 +3,13 @@
 // A drag of a slider makes more choices than the program can follow, so the wire
 // keeps only the newest and sends it
 //   - at once, if the program is idle;
-//   - when the layer of the choice before has come, or that has taken too long;
-//   - at times only when all of the choice before has come, so that the solid
-//     follows, too.
+//   - when the layer of the choice before has come, or has taken too long;
+//   - where no layer or no part has come for a while, only when one has.
 
-const kLayerPatience = 150;   // how long a layer may keep back the next choice [ms]
-const kPartInterval = 400;    // after so long without a part, one is waited for [ms]
-const kPartPatience = 1000;   // but no longer than this since its choice [ms]
-const kRetry = 1000;          // until the next try to connect [ms]
+const kLayerPatience = 150;  // how long a layer may keep back the next choice [ms]
+const kLongestGap = 400;     // between layers, and between parts [ms]; then one may
+const kLongestHold = 1000;   // keep back the next choice so long [ms]
+const kRetry = 1000;         // until the next try to connect [ms]
 
 // Server-sent events and requests. Another carrier, as a worker in the browser, has
 // the same methods.
@@ -24,18 +23,17 @@ class HttpTransport {
   }
 
   listen() {
-    clearTimeout(this.timer);
-    if (this.source) this.source.close();
     this.source = new EventSource("/events");
     this.source.onmessage = ({data}) => this.take(JSON.parse(data));
     this.source.onerror = () => {
       this.lose();
-      // A browser gives up where anything but events comes.
-      if (this.source.readyState === EventSource.CLOSED) this.reopen();
+      this.reopen();
     };
   }
 
+  // Connects anew, in a moment. A browser by itself gives up at times.
   reopen() {
+    this.source.close();
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.listen(), kRetry);
   }
@@ -64,10 +62,10 @@ class Wire {
     Object.assign(this, {transport, choose, begin, take, refuse, lose});
     this.number = 0;
     this.client = null;
-    this.run = null;       // of the last choice sent: {begin, hasLayer, hasPart, hasEnded}
+    this.run = null;       // of the last choice sent: {begin, awaited, hasEnded}
     this.isDue = false;    // whether there is a choice to send
     this.isPosting = false;
-    this.lastPart = 0;     // when a part last came, or changes began
+    this.last = {layer: 0, part: 0};  // when one last came, or changes began
   }
 
   open() {
@@ -76,7 +74,8 @@ class Wire {
 
   // The choice has changed.
   change() {
-    if (!this.isBusy) this.lastPart = performance.now();
+    const now = performance.now();
+    if (!this.isBusy) this.last = {layer: now, part: now};
     this.isDue = true;
     this.pump();
   }
@@ -102,12 +101,14 @@ class Wire {
     } else if (event.number !== this.number) {
       return;
     } else {
-      if (event.kind === "layer") this.run.hasLayer = true;
-      if (event.kind === "part") {
-        this.run.hasPart = true;
-        this.lastPart = performance.now();
+      if (event.kind in this.last) {
+        this.last[event.kind] = performance.now();
+        this.run.awaited = event.kind === "layer" ? "part" : null;
       }
-      if (event.kind === "end") this.run.hasEnded = true;
+      if (event.kind === "end") {
+        this.run.awaited = null;
+        this.run.hasEnded = true;
+      }
     }
     this.take(event);
     this.pump();
@@ -123,27 +124,27 @@ class Wire {
 
   // How long the run of the choice before may keep back the next [ms].
   waitTime(now) {
-    const {run} = this;
-    if (run === null || run.hasEnded) return 0;
-    if (!run.hasLayer) return run.begin + kLayerPatience - now;
-    if (run.hasPart || now - this.lastPart < kPartInterval) return 0;
-    return run.begin + kPartPatience - now;
+    const {run, last} = this;
+    if (run === null || run.awaited === null) return 0;
+    if (now - last[run.awaited] >= kLongestGap) return run.begin + kLongestHold - now;
+    return run.awaited === "layer" ? run.begin + kLayerPatience - now : 0;
   }
 
   async post() {
     const now = performance.now();
-    // A part that was waited for in vain is not waited for again at once.
-    if (now - this.lastPart >= kPartPatience) this.lastPart = now;
+    // What was waited for in vain is not waited for again at once.
+    for (const kind of Object.keys(this.last)) {
+      if (now - this.last[kind] >= kLongestHold) this.last[kind] = now;
+    }
     this.isDue = false;
     this.isPosting = true;
-    this.run = {begin: now, hasLayer: false, hasPart: false, hasEnded: false};
+    this.run = {begin: now, awaited: "layer", hasEnded: false};
     const choice = {...this.choose(), client: this.client, number: ++this.number};
     this.begin();
     try {
       const {status, body} = await this.transport.send("/change", choice);
       if (status !== 202) this.miss(choice, status, body);
     } catch {
-      this.isDue = true;
       this.disconnect();
     }
     this.isPosting = false;
@@ -153,15 +154,16 @@ class Wire {
   // The program has not taken a choice.
   miss(choice, status, body) {
     if (status !== 404) {
+      this.run.awaited = null;
       this.run.hasEnded = true;
       this.refuse(status, body);
     } else if (choice.client === this.client) {
-      this.isDue = true;
       this.disconnect();
       this.transport.reopen();
     }
   }
 
+  // Until the next `hello`, after which the choice is sent again.
   disconnect() {
     this.client = null;
     this.run = null;

@@ -48,6 +48,13 @@ const kStudioWords = {
   "keep-again": "Keep this as A",
 };
 
+// What keys do, for the list of them.
+const kStudioKeys = {
+  "P": "show or hide the parameters",
+  "K": "keep what is shown as A, to compare",
+  "Ctrl+Z, Ctrl+Shift+Z": "undo, redo a change of the parameters",
+};
+
 // The text of a key, with values put in.
 function say(key, ...values) {
   return kStudioWords[key].replace(/\{(\d)\}/g, (_, i) => values[i]);
