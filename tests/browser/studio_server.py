@@ -15,6 +15,7 @@ import json
 import os
 import queue
 import random
+import re
 import sys
 import threading
 import time
@@ -24,7 +25,8 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 VIEWER = os.path.join(ROOT, "slicer", "picture", "viewer")
 PAGE = os.path.join(ROOT, "serve", "studio", "page")
 # In the order in which they are one script.
-VIEWER_SCRIPTS = ["words.js", "part.js", "view.js", "measure.js", "solid.js", "controls.js"]
+with open(os.path.join(VIEWER, "..", "CMakeLists.txt"), encoding="utf-8") as lists:
+    VIEWER_SCRIPTS = re.findall(r"[a-z]+\.js", lists.read().split("script IN ITEMS")[1].split(")")[0])
 PAGE_SCRIPTS = ["words.js", "wire.js", "values.js", "choice.js", "fields.js",
                 "form.js", "messages.js", "figures.js", "sets.js", "compare.js",
                 "actions.js", "studio.js"]
@@ -332,9 +334,8 @@ def page():
 def joined(*files):
     texts = []
     for path in files:
-        if os.path.exists(path):
-            with open(path, encoding="utf-8") as file:
-                texts.append(file.read())
+        with open(path, encoding="utf-8") as file:
+            texts.append(file.read())
     return "".join(texts)
 
 

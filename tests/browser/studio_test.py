@@ -5,11 +5,12 @@ usage: studio_test.py [unittest's arguments]
 
 import copy
 import json
+import os
 import random
+import re
 import subprocess
 import tempfile
 import time
-import os
 import unittest
 
 import studio_server
@@ -259,7 +260,7 @@ class FormTest(StudioTest):
             self.browser.call("Input.dispatchKeyEvent", type="keyDown", key=letter,
                               text=letter)
         self.assertEqual(self.values(), {"finish": "mbf"})
-        self.assertFalse(self.js("viewer.isMeasuring || viewer.state.below"))
+        self.assertFalse(self.js("viewer.measuring.mode !== null || viewer.state.below"))
         # Arrows move the slider that has the focus, not the layer.
         self.js(self.field("size", "input[type=range]") + ".focus()")
         self.press("ArrowRight")
@@ -778,6 +779,17 @@ class LookTest(StudioTest):
                     if not node.get("ignored") and node["role"]["value"] in controls and
                     not node.get("name", {}).get("value")]
         self.assertEqual(nameless, [])
+
+    def test_all_words_are_in_the_table(self):
+        self.open()
+        self.assertEqual(self.js(
+            "[...document.querySelectorAll('[data-word], [data-word-title], [data-word-label]')]"
+            ".flatMap(({dataset: {word, wordTitle, wordLabel}}) => [word, wordTitle, wordLabel])"
+            ".filter((key) => key && !(key in kWords))"), [])
+        page = self.js("Object.keys(kStudioWords).length")
+        with open(os.path.join(studio_server.VIEWER, "words.js"), encoding="utf-8") as file:
+            viewer = re.findall(r'^  "?([\w ]+)"?:', file.read(), re.MULTILINE)
+        self.assertEqual(self.js("Object.keys(kWords).length"), len(viewer) + page)
 
     def test_nothing_is_wider_than_the_page(self):
         self.open()

@@ -32,22 +32,22 @@ class Actions {
     try {
       const {status, body} = await this.wire.ask(path, more);
       if (answers[status]) answers[status](body);
-      else this.notice(typeof body === "string" && body ? body : say("refused", status));
+      else this.notice(typeof body === "string" && body ? body : word("refused", status));
     } catch {
-      this.notice(say("not-connected"));
+      this.notice(word("notConnected"));
     }
   }
 
   makeFile(format, title) {
-    this.notice(say("making", title), true);
+    this.notice(word("making", title), true);
     return this.ask("/output", {format}, {
       200: ({file, name}) => {
         download(file, name);
-        this.notice(say("made", name));
+        this.notice(word("made", name));
       },
       422: ({messages}) => {
         this.messages(messages);
-        this.notice(say("output-failed", title));
+        this.notice(word("outputFailed", title));
       },
     });
   }
@@ -56,7 +56,7 @@ class Actions {
     return this.ask("/source", {}, {
       200: ({diff, key}) => {
         if (!diff) {
-          this.notice(say("nothing-to-write"));
+          this.notice(word("nothingToWrite"));
           return;
         }
         this.key = key;
@@ -65,24 +65,24 @@ class Actions {
         byId("source-dialog").showModal();
       },
       422: ({messages}) => this.messages(messages),
-      409: () => this.notice(say("source-changed")),
+      409: () => this.notice(word("sourceChanged")),
     });
   }
 
   writeSource() {
     byId("source-dialog").close();
     return this.ask("/source", {key: this.key}, {
-      200: ({written}) => this.notice(say("written", written)),
-      409: () => this.notice(say("source-changed")),
+      200: ({written}) => this.notice(word("written", written)),
+      409: () => this.notice(word("sourceChanged")),
     });
   }
 
   async copyLink() {
     try {
       await navigator.clipboard.writeText(location.href);
-      this.notice(say("link-copied"));
+      this.notice(word("linkCopied"));
     } catch {
-      this.notice(say("link-shown"));
+      this.notice(word("linkShown"));
     }
   }
 }

@@ -4,22 +4,24 @@
 // of both has is drawn over the part.
 
 class ComparedDrawing extends Drawing {
-  // canvas, keptCanvas  of the layer and of A's
-  constructor(canvas, view, measuring, keptCanvas) {
-    super(canvas, view, measuring);
+  // drawing  what draws the part otherwise
+  // canvas   of A's pane
+  constructor(drawing, canvas) {
+    super(drawing.canvas, drawing.view, {
+      draw: (sheet) => {
+        if (this.kept) this.drawDifference(sheet, this.state);
+        drawing.measuring.draw(sheet);
+      },
+    });
+    this.part = drawing.part;
     this.kept = null;  // A's part
-    this.beside = new Drawing(keptCanvas, new View(), null);
+    this.beside = new Drawing(canvas, new View(), {draw: () => {}});
   }
 
   draw(state) {
+    this.state = state;
     super.draw(state);
     if (this.kept) this.drawKept(state);
-  }
-
-  // Called when the layer is drawn, and what lies over it is not.
-  drawMeasure(sheet, state) {
-    if (this.kept) this.drawDifference(sheet, state);
-    super.drawMeasure(sheet, state);
   }
 
   // The layer of A as high above the bed as the one in view; where there is none, one
@@ -45,7 +47,7 @@ class ComparedDrawing extends Drawing {
     Object.assign(beside.view, {scale: view.scale, x: view.x, y: view.y, low: view.low});
     beside.view.countFrom(kept.low);
     beside.part = kept;
-    beside.draw({...state, index, early: isThere ? null : {layer}, ends: [], pointer: null});
+    beside.draw({...state, index, early: isThere ? null : {layer}, pointer: null});
   }
 
   drawDifference(sheet, state) {
@@ -89,9 +91,7 @@ class Comparison {
   // Takes over the layer's drawing of the viewer.
   open(viewer) {
     this.viewer = viewer;
-    viewer.drawing = new ComparedDrawing(byId("drawing"), viewer.view, viewer.measuring,
-        byId("kept-drawing"));
-    viewer.drawing.part = viewer.part;
+    viewer.drawing = new ComparedDrawing(viewer.drawing, byId("kept-drawing"));
     viewer.bindCanvas(byId("kept-drawing"),
         (factor, at) => viewer.zoomDrawing(factor, at),
         (from, to, hold) => {
@@ -120,7 +120,7 @@ class Comparison {
     this.kept = kept;
     this.viewer.drawing.kept = kept && kept.part;
     byId("kept-pane").hidden = byId("legend").hidden = byId("comparison").hidden = !kept;
-    byId("keep").textContent = say(kept ? "keep-again" : "keep");
+    byId("keep").textContent = word(kept ? "keepAgain" : "keep");
     this.show();
     this.viewer.resize();
   }
@@ -147,15 +147,15 @@ function differencesOf(a, b, captions) {
     add(captions.get(name) || name, a.values.get(name) ?? "", b.values.get(name) ?? "");
   }
   for (const name of Object.keys(b.settings)) {
-    add(say(`setting-${name}`), textOf(a.settings[name]), textOf(b.settings[name]));
+    add(word(`${name}Setting`), textOf(a.settings[name]), textOf(b.settings[name]));
   }
   if (!a.report || !b.report) return rows;
-  add(say("size"), sizeText(a.report.size), sizeText(b.report.size));
-  add(say("volume"), ...[a, b].map(({report}) => say("volume-text", fixed(report.volume, 2))));
+  add(word("sizeOf"), sizeText(a.report.size), sizeText(b.report.size));
+  add(word("volume"), ...[a, b].map(({report}) => word("mm3", fixed(report.volume, 2))));
   for (const {name, title, grams} of b.report.metals) {
     const before = a.report.metals.find((metal) => metal.name === name);
-    add(title, before ? say("grams", gramsText(before.grams)) : "", say("grams", gramsText(grams)));
+    add(title, before ? word("grams", gramsText(before.grams)) : "", word("grams", gramsText(grams)));
   }
-  add(say("print"), a.report.estimate, b.report.estimate);
+  add(word("print"), a.report.estimate, b.report.estimate);
   return rows;
 }

@@ -256,10 +256,10 @@ class Field {
     this.element.dataset.name = name;
     this.label.textContent = caption || name;
     this.label.title = name;
-    this.reset.title = say("reset-one", textOf(initial));
-    this.reset.setAttribute("aria-label", say("reset-title", caption || name, textOf(initial)));
+    this.reset.title = word("resetTitle", textOf(initial));
+    this.reset.setAttribute("aria-label", word("resetLabel", caption || name, textOf(initial)));
     this.control.elements.slice(1).forEach((element, i) => element.setAttribute("aria-label",
-        Array.isArray(initial) ? say("component", caption || name, i + 2) : caption || name));
+        Array.isArray(initial) ? word("component", caption || name, i + 2) : caption || name));
     this.control.update(parameter);
   }
 

@@ -11,12 +11,12 @@ class Figures {
     byId("figures").hidden = false;
     byId("figures").classList.remove("old");
     byId("figure-size").textContent = sizeText(size);
-    byId("figure-volume").textContent = say("volume-text", fixed(volume, 2));
+    byId("figure-volume").textContent = word("mm3", fixed(volume, 2));
     byId("figure-estimate").textContent = estimate;
     byId("figure-estimate").hidden = !estimate;
     byId("figure-metals").replaceChildren(...metals.map(({title, grams}) => build("tr", {},
         build("th", {scope: "row", textContent: title}),
-        build("td", {textContent: say("grams", gramsText(grams))}))));
+        build("td", {textContent: word("grams", gramsText(grams))}))));
   }
 
   // The figures are of what was shown before.
@@ -25,7 +25,7 @@ class Figures {
   }
 }
 
-const sizeText = (size) => say("size-text", ...size.map((length) => fixed(length, 2)));
+const sizeText = (size) => word("size", ...size.map((length) => fixed(length, 2)));
 
 // As a goldsmith's scales show it.
 const gramsText = (grams) => fixed(grams, grams < 100 ? 2 : 1);

@@ -39,7 +39,7 @@ class Form {
       const count = build("small");
       const body = build("div", {className: "fields"});
       const element = build("details", {className: "group", open: true},
-          build("summary", {}, group || say("no-group"), count), body);
+          build("summary", {}, group || word("noGroup"), count), body);
       this.sections.set(group, {element, body, count});
     }
     return this.sections.get(group);
@@ -61,7 +61,7 @@ class Form {
       const parameters = [...this.fields.values()].map(({parameter}) => parameter)
           .filter((parameter) => (parameter.group || "") === group);
       const changed = parameters.filter((parameter) => this.choice.isChanged(parameter)).length;
-      count.textContent = changed ? say("changed-count", changed) : "";
+      count.textContent = changed ? word("changed", changed) : "";
       for (const field of body.children) {
         const {parameter} = this.fields.get(field.dataset.name);
         field.hidden = parameter.widget === "hidden" && !this.isShowingHidden;
@@ -82,7 +82,7 @@ class SettingsForm {
 
   // own  the program's settings; lists  its {printers, materials, metals}
   take(own, {printers, materials, metals}) {
-    const listed = (names) => [{name: say("none"), value: ""},
+    const listed = (names) => [{name: word("none"), value: ""},
       ...names.map((name) => ({name, value: name}))];
     const kinds = {
       layer: {type: "number", min: 0.005, step: 0.005},
@@ -93,7 +93,7 @@ class SettingsForm {
       metal: {type: "string", options: listed(metals)},
     };
     for (const [name, kind] of Object.entries(kinds)) {
-      const setting = {...kind, name, caption: say(`setting-${name}`), initial: own[name]};
+      const setting = {...kind, name, caption: word(`${name}Setting`), initial: own[name]};
       if (this.fields.has(name)) this.fields.get(name).update(setting);
       else this.fields.set(name, this.fieldOf(setting));
     }

@@ -26,11 +26,11 @@ class MessageList {
     const count = (...severities) =>
       messages.filter(({severity}) => severities.includes(severity)).length;
     return [
-      [count("error"), "error", "errors"],
-      [count("warning", "deprecated"), "warning", "warnings"],
-      [count("echo", "note"), "other", "others"],
-    ].filter(([number]) => number > 0).map((parts) => sayCount(...parts)).join(", ") ||
-      say("no-messages");
+      ["errors", count("error")],
+      ["warnings", count("warning", "deprecated")],
+      ["messages", count("echo", "note")],
+    ].filter(([, number]) => number > 0).map((parts) => word(...parts)).join(", ") ||
+      word("noMessages");
   }
 
   itemOf({severity, message, file, line, column, text}) {

@@ -68,13 +68,13 @@ class Sets {
 
   itemOf(name, values) {
     const use = build("button", {className: "set", type: "button", textContent: name,
-      title: this.saved.has(name) ? name : say("set-of-file"), onclick: () => this.apply(values)});
+      title: this.saved.has(name) ? name : word("setOfFile"), onclick: () => this.apply(values)});
     const put = build("button", {className: "small", type: "button", textContent: "↓",
-      title: say("set-download", name), "aria-label": say("set-download", name),
+      title: word("setDownload", name), "aria-label": word("setDownload", name),
       onclick: () => this.download(new Map([[name, values]]))});
     const item = build("li", {}, use, put);
     if (this.saved.has(name)) item.append(build("button", {className: "small", type: "button",
-      textContent: "×", title: say("set-remove", name), "aria-label": say("set-remove", name),
+      textContent: "×", title: word("setRemove", name), "aria-label": word("setRemove", name),
       onclick: () => {
         this.saved.delete(name);
         this.show();
@@ -86,7 +86,7 @@ class Sets {
     if (name === "") return;
     this.saved.set(name, this.choice.all());
     byId("set-name").value = "";
-    this.notice(say("set-saved", name));
+    this.notice(word("setSaved", name));
     this.show();
   }
 
@@ -107,10 +107,10 @@ class Sets {
         [name, new Map(Object.entries(values).map(([key, value]) => [key, textOf(value)]))]);
       for (const [name, values] of sets) this.saved.set(name, values);
       this.show();
-      this.notice(sayCount(sets.length, "set-loaded", "sets-loaded"));
+      this.notice(word("setsLoaded", sets.length));
       if (sets.length === 1) this.apply(sets[0][1]);
     } catch (error) {
-      this.notice(say("sets-damaged", file.name, error.message));
+      this.notice(word("setsDamaged", file.name, error.message));
     }
   }
 }

@@ -16,9 +16,9 @@ class Studio {
       choose: () => ({...this.choice.toSend(), z: this.viewer ? this.viewer.height : null}),
       begin: () => this.begin(),
       take: (event) => this.take(event),
-      lose: () => this.tell("lost", say("not-connected")),
+      lose: () => this.tell("lost", word("notConnected")),
       refuse: (status, text) =>
-        this.tell("failed", typeof text === "string" && text ? text : say("refused", status)),
+        this.tell("failed", typeof text === "string" && text ? text : word("refused", status)),
     });
     this.form = new Form(byId("form"), this.choice);
     this.settings = new SettingsForm(byId("settings"), this.choice);
@@ -39,14 +39,15 @@ class Studio {
     this.bindButtons();
     this.bindKeys();
     byId("keys").querySelector("dl").append(...Object.entries(kStudioKeys).flatMap(
-        ([key, text]) => [build("dt", {textContent: key}), build("dd", {textContent: text})]));
+        ([key, text]) => [build("dt", {textContent: key}), build("dd", {textContent: word(text)})]));
     window.addEventListener("hashchange", () => this.followLink());
   }
 
   open() {
+    putWords(document);
     this.setPanel(!matchMedia(kPhone).matches);
     byId("working").hidden = true;
-    this.tell("working", say("working"));
+    this.tell("working", word("atWork"));
     this.wire.open();
   }
 
@@ -69,7 +70,9 @@ class Studio {
 
   // Shows the choice.
   show() {
-    byId("design").value = byId("title").textContent = document.title = this.choice.design;
+    const {design} = this.choice;
+    byId("design").value = byId("title").textContent = design;
+    document.title = word("title", design);
     this.form.show();
     this.settings.show();
     this.sets.mark();
@@ -163,11 +166,11 @@ class Studio {
     if (!this.hasMessages) this.messages.show([]);
     document.body.classList.toggle("stale", !isWell);
     if (isWell) {
-      this.tell("ready", milliseconds ? say("timed",
+      this.tell("ready", milliseconds ? word("timed",
           ...[milliseconds.layer, milliseconds.all].map((time) => fixed(time, 0))) : "");
     } else {
       this.figures.dim();
-      this.tell("failed", say(this.shown ? "failed" : "failed-first"));
+      this.tell("failed", word(this.shown ? "failed" : "failedFirst"));
     }
     document.documentElement.dataset.ready = "true";
   }
@@ -177,7 +180,7 @@ class Studio {
     clearTimeout(this.workTimer);
     this.workTimer = setTimeout(() => {
       if (this.wire.client === null) return;
-      this.tell("working", say("working"));
+      this.tell("working", word("atWork"));
       this.figures.dim();
     }, kWorkingTime);
   }

@@ -1,66 +1,101 @@
-// What the studio's own part of the page says, in one place, for translators.
-// {0}, {1}, … are put in.
+// What the studio adds to the words of the page (slicer/picture/viewer/words.js), in
+// the same form. The program's words, as those of messages and metals, are its own.
 
 const kStudioWords = {
-  "not-connected": "Not connected. Is lamina studio still running?",
-  "working": "Working …",
-  "timed": "Layer after {0} ms, all after {1} ms",
-  "failed": "The design fails; the picture is the last that worked.",
-  "failed-first": "The design fails: see the messages.",
-  "refused": "The program answers with status {0}.",
-  "no-messages": "No messages",
-  "errors": "{0} errors", "error": "1 error",
-  "warnings": "{0} warnings", "warning": "1 warning",
-  "others": "{0} messages", "other": "1 message",
-  "reset-one": "Back to {0}",
-  "reset-title": "Set {0} back to {1}",
-  "component": "{0}, number {1}",
-  "no-group": "Parameters",
-  "none": "none",
-  "setting-layer": "layer height [mm]",
-  "setting-minFeature": "mark what is thinner than [mm]",
-  "setting-supports": "supports",
-  "setting-printer": "printer",
-  "setting-material": "material",
-  "setting-metal": "metal",
-  "print": "Print",
-  "volume": "Volume",
-  "size": "Size",
-  "size-text": "{0} × {1} × {2} mm",
-  "volume-text": "{0} mm³",
-  "grams": "{0} g",
-  "changed-count": "{0} changed",
-  "set-of-file": "from the design’s JSON file",
-  "set-saved": "Saved set “{0}”. Download the sets to keep them.",
-  "set-download": "Download the set {0}",
-  "set-remove": "Remove the set {0}",
-  "sets-loaded": "Read {0} sets.", "set-loaded": "Read 1 set.",
-  "sets-damaged": "{0} is not a file of parameter sets: {1}",
-  "making": "Making {0} …",
-  "made": "Saved {0}.",
-  "output-failed": "{0} could not be made: see the messages.",
-  "link-copied": "Copied the link.",
-  "link-shown": "The link is in the address bar.",
-  "nothing-to-write": "All values are those of the file.",
-  "written": "Wrote {0}.",
-  "source-changed": "The file has changed meanwhile. Look at the values again and repeat.",
-  "keep": "Keep as A",
-  "keep-again": "Keep this as A",
+  title: "{0} – lamina studio",
+  notConnected: "Not connected. Is lamina studio still running?",
+  atWork: "Working …",
+  timed: "Layer after {0} ms, all after {1} ms",
+  failed: "The design fails; the picture is the last that worked.",
+  failedFirst: "The design fails: see the messages.",
+  refused: "The program answers with status {0}.",
+
+  design: "Design",
+  badgeTitle: "Show the messages",
+  panel: "Parameters",
+  panelTitle: "Show or hide the parameters (P)",
+  keep: "Keep as A",
+  keepAgain: "Keep this as A",
+  keepTitle: "Compare what comes with what is shown now (K)",
+  save: "Save …",
+  writeSource: "Write values into the design …",
+  copyLink: "Copy link to these values",
+  linkCopied: "Copied the link.",
+  linkShown: "The link is in the address bar.",
+
+  undo: "Undo",
+  undoTitle: "Undo (Ctrl+Z)",
+  redo: "Redo",
+  redoTitle: "Redo (Ctrl+Shift+Z)",
+  resetAll: "Reset all",
+  resetAllTitle: "Set all parameters back to the design’s own values",
+  resetTitle: "Back to {0}",
+  resetLabel: "Set {0} back to {1}",
+  component: "{0}, number {1}",
+  noGroup: "Parameters",
+  noParameters: "This design has no parameters.",
+  showHidden: "Show hidden parameters",
+  changed: {one: "{0} changed", other: "{0} changed"},
+
+  print: "Print",
+  layerSetting: "layer height [mm]",
+  minFeatureSetting: "mark what is thinner than [mm]",
+  supportsSetting: "supports",
+  printerSetting: "printer",
+  materialSetting: "material",
+  metalSetting: "metal",
+  none: "none",
+
+  sets: "Sets of values",
+  noSets: "None yet: save these values under a name, or drop a JSON file here.",
+  setName: "Name of the set",
+  saveSet: "Save",
+  loadSets: "Load JSON …",
+  downloadSets: "Download all",
+  setFiles: "JSON files of sets",
+  setOfFile: "from the design’s JSON file",
+  setSaved: "Saved set “{0}”. Download the sets to keep them.",
+  setDownload: "Download the set {0}",
+  setRemove: "Remove the set {0}",
+  setsLoaded: {one: "Read {0} set.", other: "Read {0} sets."},
+  setsDamaged: "{0} is not a file of parameter sets: {1}",
+
+  messages: {one: "{0} message", other: "{0} messages"},
+  warnings: {one: "{0} warning", other: "{0} warnings"},
+  errors: {one: "{0} error", other: "{0} errors"},
+  noMessages: "No messages",
+
+  figures: "Weight and size",
+  sizeOf: "Size",
+  volume: "Volume",
+  grams: "{0} g",
+
+  comparison: "Comparison",
+  kept: "A",
+  keptDrawing: "Section of A at the same height",
+  now: "Now",
+  onlyKept: "only A",
+  onlyNow: "only now",
+  noDifferences: "A and now are the same.",
+  applyKept: "Go back to A",
+  endComparison: "End comparison",
+
+  sourceDialog: "Write these values into the design?",
+  cancel: "Cancel",
+  write: "Write",
+  nothingToWrite: "All values are those of the file.",
+  written: "Wrote {0}.",
+  sourceChanged: "The file has changed meanwhile. Look at the values again and repeat.",
+  making: "Making {0} …",
+  made: "Saved {0}.",
+  outputFailed: "{0} could not be made: see the messages.",
+
+  keyPanel: "show or hide the parameters",
+  keyKeep: "keep what is shown as A, to compare",
+  keyUndo: "undo, redo a change of the parameters",
 };
 
-// What keys do, for the list of them.
-const kStudioKeys = {
-  "P": "show or hide the parameters",
-  "K": "keep what is shown as A, to compare",
-  "Ctrl+Z, Ctrl+Shift+Z": "undo, redo a change of the parameters",
-};
+// In the list of keys.
+const kStudioKeys = {"P": "keyPanel", "K": "keyKeep", "Ctrl+Z, Ctrl+Shift+Z": "keyUndo"};
 
-// The text of a key, with values put in.
-function say(key, ...values) {
-  return kStudioWords[key].replace(/\{(\d)\}/g, (_, i) => values[i]);
-}
-
-// "1 error", "3 errors".
-function sayCount(count, one, many) {
-  return count === 1 ? say(one) : say(many, count);
-}
+Object.assign(kWords, kStudioWords);
