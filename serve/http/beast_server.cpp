@@ -601,6 +601,7 @@ class BeastEngine final : public Engine, private Hub {
       const auto watch = std::make_shared<Watch>(context_);
       watch->call = std::move(call);
       watch->descriptor.assign(descriptor);
+      watch->descriptor.non_blocking(true);
       watches_[descriptor] = watch;
       Watch::wait(watch);
     });

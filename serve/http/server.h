@@ -127,9 +127,10 @@ class Server {
   // port  0: any that is free
   virtual std::uint16_t listen(std::uint16_t port) = 0;
 
-  // Calls whenever a descriptor can be read, or has come to its end, until
-  // forget(). The descriptor (not of a file on a disk) stays the caller's, who
-  // closes it after forget().
+  // Calls whenever a descriptor, which no longer blocks from now on, can be
+  // read or has come to its end, and at times when there is nothing to read,
+  // until forget(). The descriptor (not of a file on a disk) stays the
+  // caller's, who closes it after forget().
   virtual void on_readable(int descriptor, std::function<void()> call) = 0;
   virtual void forget(int descriptor) = 0;
 

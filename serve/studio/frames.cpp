@@ -3,8 +3,6 @@
 #include <array>
 #include <cstring>
 
-#include <unistd.h>
-
 #include "base/file/open_file.h"
 
 namespace lamina::studio {
@@ -15,12 +13,12 @@ constexpr std::size_t kHeadSize = 1 + sizeof(std::uint32_t);
 
 }  // namespace
 
-void write_frame(int descriptor, FrameKind kind, std::string_view bytes) {
+bool write_frame(int descriptor, FrameKind kind, std::string_view bytes) {
   const auto size = static_cast<std::uint32_t>(bytes.size());
   std::string frame(kHeadSize, static_cast<char>(kind));
   std::memcpy(frame.data() + 1, &size, sizeof size);
   frame += bytes;
-  if (write_all(descriptor, frame) != 0) ::_exit(1);
+  return write_all(descriptor, frame) == 0;
 }
 
 void FrameReader::add(std::string_view bytes,

@@ -16,8 +16,8 @@ enum class FrameKind : char {
   kAnswer = 'a',  // of an output or a source: a status and JSON, "200 {…}"
 };
 
-// Writes a frame; ends the process where nobody reads.
-void write_frame(int descriptor, FrameKind kind, std::string_view bytes);
+// Writes a frame. False where nobody reads any more.
+bool write_frame(int descriptor, FrameKind kind, std::string_view bytes);
 
 // Takes the bytes of a pipe as they come.
 class FrameReader {

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "base/paths.h"
 #include "base/text.h"
@@ -53,8 +54,13 @@ std::string title_of(const compiler::Compilation& c) {
   return std::filesystem::path(c.request.design.path).filename();
 }
 
+// Ends the run where nobody reads: a later choice has come.
+void send_frame(int output, FrameKind kind, std::string_view bytes) {
+  if (!write_frame(output, kind, bytes)) ::_exit(0);
+}
+
 void send_answer(int output, unsigned status, const std::string& json) {
-  write_frame(output, FrameKind::kAnswer, fmt::format("{} {}", status, json));
+  send_frame(output, FrameKind::kAnswer, fmt::format("{} {}", status, json));
 }
 
 // Answers that the messages say why nothing could be made.
@@ -155,7 +161,7 @@ class ShownChoice {
     for (const std::string& file : compiler::files_read(c_)) {
       list += file + '\n';
     }
-    write_frame(output_, FrameKind::kFiles, list);
+    send_frame(output_, FrameKind::kFiles, list);
   }
 
   // All of them so far, where they are others than were sent.
@@ -168,7 +174,7 @@ class ShownChoice {
   }
 
   void send(const std::string& event) {
-    write_frame(output_, FrameKind::kEvent, event);
+    send_frame(output_, FrameKind::kEvent, event);
   }
 
   double seconds() const {

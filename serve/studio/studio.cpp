@@ -262,10 +262,12 @@ void Studio::make(Client& client, const Choice& choice, const std::string& body,
 
 namespace {
 
-// What can be read now, once the descriptor is readable; empty at the end.
-std::string read_some(const OpenFile& pipe) {
+// What can be read now. Empty at the end; no value where there is nothing: the
+// server may call for what a descriptor of the same number had.
+std::optional<std::string> read_some(const OpenFile& pipe) {
   std::string bytes(1 << 16, '\0');
   const ssize_t size = ::read(pipe.descriptor(), bytes.data(), bytes.size());
+  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
   bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
   return bytes;
 }
@@ -273,22 +275,24 @@ std::string read_some(const OpenFile& pipe) {
 }  // namespace
 
 void Studio::read_shown(Client& client) {
-  const std::string bytes = read_some(client.shown);
-  if (bytes.empty()) return end_shown(client);
-  client.frames.add(bytes, [&](FrameKind kind, std::string frame) {
+  const std::optional<std::string> bytes = read_some(client.shown);
+  if (!bytes) return;
+  if (bytes->empty()) return end_shown(client);
+  client.frames.add(*bytes, [&](FrameKind kind, const std::string& frame) {
     if (kind == FrameKind::kEvent) send(client, frame);
     if (kind == FrameKind::kFiles) take_files(client, frame);
   });
 }
 
 void Studio::read_made(Client& client) {
-  const std::string bytes = read_some(client.made);
+  const std::optional<std::string> bytes = read_some(client.made);
+  if (!bytes) return;
   std::optional<std::string> answer;
-  client.made_frames.add(bytes, [&](FrameKind kind, std::string frame) {
+  client.made_frames.add(*bytes, [&](FrameKind kind, std::string frame) {
     if (kind == FrameKind::kAnswer) answer = std::move(frame);
   });
   if (answer) return finish_made(client, std::move(*answer));
-  if (bytes.empty()) end_made(client);
+  if (bytes->empty()) end_made(client);
 }
 
 // answer  "200 {…}"

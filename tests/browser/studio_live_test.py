@@ -5,6 +5,7 @@ usage: studio_live_test.py LAMINA [unittest's arguments]
 studio_test.py looks at the page alone; here is what needs both sides.
 """
 
+import json
 import os
 import re
 import subprocess
@@ -30,6 +31,12 @@ SLOW = """n = 1;  // [1:1:200]
 a = [for (i = [0 : 2000 * n]) i];
 cube([n, 1, 1]);
 """
+
+
+def area_of(loop):
+    """The signed area of a loop of (x, y)."""
+    return sum(ax * by - bx * ay for (ax, ay), (bx, by)
+               in zip(loop, loop[1:] + loop[:1], strict=True)) / 2
 
 
 class Studio:
@@ -124,18 +131,22 @@ class LiveTest(unittest.TestCase):
         studio.slide("width_back", 4)
         studio.wait("studio.choice.values.get('width_back') === '4' && "
                     "!studio.wire.isBusy")
-        output = os.path.join(self.folder, "x.slc")
+        output = os.path.join(self.folder, "x.layers.json")
         subprocess.run([LAMINA, os.path.join(EXAMPLES, "solitaire.scad"), "-D",
                         "width_back=4", "-o", output, "-q"], check=True)
-        lines = subprocess.run([LAMINA, "inspect", output, "--all"], check=True,
-                               capture_output=True, text=True).stdout
-        areas = [float(line.split()[-2]) for line in lines.splitlines()
-                 if re.match(r"\s*\d+\s+-?[\d.]+", line)]
-        shown = studio.evaluate("studio.viewer.part.layers.map((l) => l.area)")
-        self.assertEqual(len(shown), 480)
-        if len(areas) == len(shown):
-            for mine, theirs in zip(shown, areas, strict=True):
-                self.assertAlmostEqual(mine, theirs, delta=2e-3)
+        with open(output, encoding="utf-8") as file:
+            written = json.load(file)["layers"]
+        # Of the contours themselves, too: their steps are 1 um.
+        shown = studio.evaluate("""studio.viewer.part.layers.map((layer) => [
+            layer.area, layer.contours.map((loop) => Array.from(loop))])""")
+        self.assertEqual(len(shown), len(written))
+        for (area, loops), layer in zip(shown, written, strict=True):
+            exact = sum(area_of(loop["points"])
+                        for loop in layer["contours"])
+            drawn = sum(area_of(list(zip(loop[::2], loop[1::2], strict=True)))
+                        for loop in loops)
+            self.assertAlmostEqual(area, exact, delta=1e-5)
+            self.assertAlmostEqual(drawn, exact, delta=1e-3 * 200)
 
     def test_changes_show_at_once_and_never_late(self):
         self.write("slow.scad", SLOW)
