@@ -38,6 +38,7 @@
 #include <boost/beast/http/serializer.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -121,7 +122,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (!is_sendable(response)) {
       response = plain(500, "The answer cannot be sent");
     }
-    if (!response.file.empty()) return send_file(std::move(response));
+    if (!response.file.empty()) return send_file(response);
     const std::size_t size = response.body.size();
     if (is_head_ || !may_have_body(response.status)) {
       auto message = message_of<bh::empty_body>(response);
@@ -362,7 +363,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     send(std::move(response));
   }
 
-  void send_file(Response response) {
+  void send_file(const Response& response) {
     bh::file_body::value_type file;
     Error error;
     file.open(response.file.c_str(), file_mode::scan, error);
@@ -552,6 +553,11 @@ void Connection::hand_over() {
   watch_peer();
 }
 
+// Programs that are run meanwhile do not get the descriptor.
+void keep_from_programs(int descriptor) {
+  ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+}
+
 // A descriptor of the program's.
 struct Watch {
   explicit Watch(net::io_context& context) : descriptor(context) {}
@@ -581,12 +587,7 @@ class BeastEngine final : public Engine, private Hub {
       : limits_(limits), rules_(limits, 0) {}
 
   ~BeastEngine() override {
-    for (const auto& connection : std::exchange(connections_, {})) {
-      connection->abandon();
-    }
-    for (auto& [descriptor, watch] : watches_) watch->descriptor.release();
-    // Children that were forked meanwhile would go on listening.
-    if (acceptor_.is_open()) ::shutdown(acceptor_.native_handle(), SHUT_RDWR);
+    guard([&] { close(); });
   }
   BeastEngine(const BeastEngine&) = delete;
   BeastEngine& operator=(const BeastEngine&) = delete;
@@ -651,9 +652,19 @@ class BeastEngine final : public Engine, private Hub {
     }
   }
 
+  void close() {
+    for (const auto& connection : std::exchange(connections_, {})) {
+      connection->abandon();
+    }
+    for (auto& [descriptor, watch] : watches_) watch->descriptor.release();
+    // Children that were forked meanwhile would go on listening.
+    if (acceptor_.is_open()) ::shutdown(acceptor_.native_handle(), SHUT_RDWR);
+  }
+
   void open_acceptor(std::uint16_t& port) {
     tcp::acceptor acceptor(
         context_, tcp::endpoint(net::ip::address_v4::loopback(), port));
+    keep_from_programs(acceptor.native_handle());
     port = acceptor.local_endpoint().port();
     rules_ = Rules(limits_, port);
     acceptor_ = std::move(acceptor);
@@ -677,6 +688,7 @@ class BeastEngine final : public Engine, private Hub {
   }
 
   void add(tcp::socket socket) {
+    keep_from_programs(socket.native_handle());
     Error ignored;
     socket.non_blocking(true, ignored);
     socket.set_option(tcp::no_delay(true), ignored);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <stdexcept>
 #include <thread>
 
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/support/temporary_folder.h"
@@ -114,7 +116,7 @@ class Serving : public testing::Test {
     server_->on_readable(done.reader(), [&] { server_->stop(); });
     std::thread client([&] {
       work();
-      done.end();
+      done.write('x');
     });
     try {
       server_->run(handler);
@@ -592,6 +594,45 @@ TEST_F(Serving, CannotListenOnAPortTwice) {
   const auto other = make_server({}, {LAMINA_MODULES}, diagnostics_);
   EXPECT_EQ(other->listen(port_), 0);
   EXPECT_EQ(errno, EADDRINUSE);
+}
+
+// Runs of a design are forked, and hold copies of all descriptors.
+TEST_F(Serving, EndsConnectionsWhoseDescriptorsAChildHolds) {
+  std::vector<pid_t> children;
+  const auto fork_a_child = [&] {
+    children.push_back(::fork());
+    if (children.back() == 0) {
+      ::alarm(60);
+      while (true) ::pause();
+    }
+  };
+  const std::string answer =
+      answer_to(get("/"), [&](const Request&, const ReplyPointer& reply) {
+        fork_a_child();
+        reply->send(text("answer"));
+      });
+  EXPECT_EQ(body_of(answer), "answer");
+  // A stream is cut off, and its end is seen though the child lives.
+  std::string stream;
+  serve(
+      [&](const Request&, const ReplyPointer& reply) {
+        fork_a_child();
+        reply->begin({});
+        reply->write("x");
+      },
+      [&] {
+        Client client(port_);
+        client.send(get("/"));
+        stream = client.receive();
+      });
+  EXPECT_EQ(body_of(stream), "x");
+  server_.reset();
+  const auto other = make_server({}, {LAMINA_MODULES}, diagnostics_);
+  EXPECT_EQ(other->listen(port_), port_);
+  for (const pid_t child : children) {
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+  }
 }
 
 TEST_F(Serving, RepliesMayOutliveTheServer) {
