@@ -12,6 +12,10 @@ const kCalm = "(prefers-reduced-motion: reduce)";
 // What takes all keys by itself while it has the focus.
 const kKeyTakers = "input:not(#slider), select, textarea, [contenteditable], dialog:not(#keys)";
 
+const kArrows = {
+  ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
+};
+
 const kIcons = {
   play: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M5 2.5v15l12-7.5z"/></svg>',
   pause: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M4 3h4v14H4zm8 0h4v14h-4z"/></svg>',
@@ -465,8 +469,8 @@ class Viewer {
       this.click(this.cross());
       return true;
     }
-    const [dx, dy] = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[key] || [0, 0];
-    if (!dx && !dy || !(isMeasuring || shiftKey)) return false;
+    if (!(key in kArrows) || !(isMeasuring || shiftKey)) return false;
+    const [dx, dy] = kArrows[key];
     if (isMeasuring) {
       const [x, y] = this.cross();
       const step = shiftKey ? 10 : 1;

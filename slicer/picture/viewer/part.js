@@ -71,14 +71,15 @@ const layerOf = ([z, bottom, top, loops, holes, vertices, area, perimeter]) =>
   ({z, bottom, top, loops, holes, vertices, area, perimeter, marks: []});
 
 // The part from its facts and the bytes of its contours, as
-// slicer/picture/viewer_part.h makes them: {title, estimate, low, size, volume, minFeature, layers: [{z, bottom, top,
-// loops, holes, vertices, area, perimeter, contours, marks}], found, supports,
-// colored};
-// contours are lists of loops; found has what was looked for, else it is null:
-// {places: [{kind, first, last, layer, place, reach, text, origin}], notes,
-// hasPrint}. supports is null where there are none: {text, partVolume, layers:
-// [{bottom, top, contours}]}. partLayers are the layers without supports; colored
-// is what of the part has a color: [{color, layers}].
+// slicer/picture/viewer_part.h makes them: {title, estimate, low, size, volume,
+// minFeature, layers: [{z, bottom, top, loops, holes, vertices, area, perimeter,
+// contours, marks}], partLayers, supports, colored, found}.
+//
+// contours are lists of loops. partLayers are the layers without supports; supports is
+// null where there are none: {text, partVolume, layers: [{bottom, top, contours}]};
+// colored is what of the part has a color: [{color, layers}]. found has what was looked
+// for, else it is null: {places: [{kind, first, last, layer, place, reach, text,
+// origin}], notes, hasPrint}.
 function readPart(facts, bytes) {
   const numbers = new Numbers(bytes);
   const layers = facts.layers.map(layerOf);

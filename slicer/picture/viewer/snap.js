@@ -222,7 +222,8 @@ class SnapGrid extends EdgeGrid {
     const lengths = Array.from({length: kDirections}, (_, i) => lengthAt(i * step));
     const lengthOf = (i) => lengths[(i + kDirections) % kDirections];
     const seeds = lengths.map((_, i) => i)
-        .filter((i) => lengths[i] < Infinity && lengths[i] <= lengthOf(i - 1) && lengths[i] <= lengthOf(i + 1))
+        .filter((i) => lengths[i] < Infinity &&
+          lengths[i] <= lengthOf(i - 1) && lengths[i] <= lengthOf(i + 1))
         .sort((a, b) => lengths[a] - lengths[b]).slice(0, kRefined);
     let best = {length: Infinity, angle: 0};
     for (const seed of seeds) {
