@@ -65,6 +65,7 @@ class Wire {
     this.run = null;       // of the last choice sent: {begin, awaited, hasEnded}
     this.isDue = false;    // whether there is a choice to send
     this.isPosting = false;
+    this.changed = 0;                 // when the choice last changed
     this.last = {layer: 0, part: 0};  // when one last came, or changes began
   }
 
@@ -75,7 +76,9 @@ class Wire {
   // The choice has changed.
   change() {
     const now = performance.now();
-    if (!this.isBusy) this.last = {layer: now, part: now};
+    const isFirst = !this.isBusy || now - this.changed > kLongestGap;
+    if (isFirst) this.last = {layer: now, part: now};
+    this.changed = now;
     this.isDue = true;
     this.pump();
   }
