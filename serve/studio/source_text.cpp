@@ -7,9 +7,11 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/fingerprint.h"
 #include "parser/ast_printer.h"
+#include "parser/tree_facts.h"
 
 namespace lamina::studio {
 namespace {
@@ -31,6 +33,19 @@ const ast::Expr& value_of(const ast::Statement& statement) {
   return *std::get<ast::Assignment>(statement.node).value;
 }
 
+// Numbers in full: `.ast` has six digits of them.
+std::string text_of(const ast::Expr& value) {
+  if (const auto number = ast::number_of(value)) {
+    return fmt::format("{}", *number);
+  }
+  if (const auto numbers = ast::numbers_of(value)) {
+    return fmt::format("[{}]", fmt::join(*numbers, ", "));
+  }
+  std::string text;
+  ast::append_expression(value, text);
+  return text;
+}
+
 // In the order of the text.
 std::vector<Replacement> replacements(const ast::Program& program,
                                       const ast::Program& changed) {
@@ -40,10 +55,8 @@ std::vector<Replacement> replacements(const ast::Program& program,
     if (program.statements[i] == changed.statements[i]) continue;
     const SourceRange range = value_of(*program.statements[i]).range;
     if (range.source != program.source || range.end > end) continue;
-    std::string before;
-    std::string text;
-    ast::append_expression(value_of(*program.statements[i]), before);
-    ast::append_expression(value_of(*changed.statements[i]), text);
+    const std::string before = text_of(value_of(*program.statements[i]));
+    const std::string text = text_of(value_of(*changed.statements[i]));
     if (before != text) all.push_back({range.begin, range.end, text});
   }
   std::ranges::sort(all, {}, &Replacement::begin);

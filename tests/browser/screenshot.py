@@ -1,6 +1,7 @@
-"""Takes a picture of a page of `lamina view`.
+"""Takes a picture of a page that lamina has written, or serves.
 
 usage: screenshot.py FILE.html[#STATE] WIDTHxHEIGHT PICTURE.png
+       screenshot.py http://… WIDTHxHEIGHT PICTURE.png
 """
 
 import os
@@ -14,7 +15,11 @@ def main():
     width, height = (int(number) for number in size.split("x"))
     browser = Browser(width, height)
     try:
-        browser.open("file://" + os.path.abspath(page))
+        browser.open(page if page.startswith("http://")
+                     else "file://" + os.path.abspath(page))
+        # The studio's solid comes after its layers.
+        browser.evaluate("window.studio ? studio.viewer.opened : null")
+        browser.settle()
         browser.screenshot(picture)
     finally:
         browser.close()

@@ -100,7 +100,7 @@ class Viewer {
     this.takePlace(early);
     byId("slider").max = early.count;
     this.describeLayer();
-    this.draw();
+    this.drawLayer();
   }
 
   // Keeps absolute places where they are on the page. A drawing that was fitted stays
@@ -110,7 +110,7 @@ class Viewer {
     this.view.countFrom(low);
     const isSame = this.size && this.size[0] === width && this.size[1] === depth;
     this.size = [width, depth];
-    if (this.isFitted && !(isSame && this.view.hasAll(this.size, this.room()))) this.resize();
+    if (!(isSame && this.view.hasAll(this.size, this.room()))) this.fitView();
   }
 
   // Makes the solid, which takes a while, or says why there is none.
@@ -225,8 +225,14 @@ class Viewer {
     byId("drawing").setAttribute("aria-label", words);
   }
 
-  // Draws once a frame, however much has changed.
+  // Draws all once a frame, however much has changed.
   draw() {
+    this.isSolidStale = true;
+    this.drawLayer();
+  }
+
+  // Draws all but the solid, which takes longest and shows none of what has changed.
+  drawLayer() {
     if (this.frame) return;
     this.frame = requestAnimationFrame(() => {
       this.frame = 0;
@@ -234,7 +240,8 @@ class Viewer {
         if (this.state.pointer) this.aim(this.state.pointer);
         this.drawing.draw(this.state);
       }
-      if (!byId("solid-pane").hidden) {
+      if (this.isSolidStale && !byId("solid-pane").hidden) {
+        this.isSolidStale = false;
         this.solid.draw(this.state, this.height, this.isWhole);
         this.placeGrip();
       }
@@ -254,8 +261,13 @@ class Viewer {
     this.resize();
   }
 
-  resize() {
+  // Shows all of the layer, if that is what was asked for last.
+  fitView() {
     if (this.isFitted) this.view.show([0, 0], this.size, ...this.room());
+  }
+
+  resize() {
+    this.fitView();
     this.draw();
   }
 
@@ -538,7 +550,7 @@ class Viewer {
       this.state.pointer = null;
       this.measuring.leave();
       byId("pointer").textContent = "";
-      this.draw();
+      this.drawLayer();
     };
   }
 
@@ -547,13 +559,13 @@ class Viewer {
     const [x, y] = this.view.toPart(at);
     const [left, foot] = this.view.low;
     byId("pointer").textContent = word("pointer", fixed(x + left, 3), fixed(y + foot, 3));
-    this.draw();
+    this.drawLayer();
   }
 
   zoomDrawing(factor, at) {
     this.isFitted = false;
     this.view.zoom(factor, at);
-    this.draw();
+    this.drawLayer();
   }
 
   zoomSolid(factor) {
@@ -636,7 +648,7 @@ class Viewer {
     this.aim(at);
     this.measuring.take();
     this.showMeasure(...this.measuring.target.length ? [] : [word("noWall")]);
-    this.draw();
+    this.drawLayer();
   }
 }
 
