@@ -10,7 +10,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "compiler/compilation.h"
+#include "compiler/compile.h"
 #include "ldni/section/leaf_section.h"
 #include "plane/cascade/kinetic_ray.h"
 
@@ -24,8 +24,7 @@ constexpr std::uint32_t kBlockLayers = 32;
 struct Design {
   Design(const std::string& scene, const std::string& definitions)
       : request(request_of(scene, definitions)), compilation(request, files) {
-    compilation.design = compiler::load(request.design, compilation.loader,
-                                        compilation.diagnostics);
+    compiler::read_design(compilation);
   }
 
   static compiler::Request request_of(const std::string& scene,

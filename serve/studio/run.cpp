@@ -28,6 +28,10 @@ namespace {
 
 constexpr double kStep = 1e-3;  // of coordinates on the wire [mm]
 
+// Of the contours of a part: some 8 million corners. A window that takes none
+// of it holds up as much as two of these (http::Limits::queued_bytes).
+constexpr std::size_t kMostBytes = 16 << 20;
+
 // Does the work and reports what it throws. Returns what the work returns, or
 // false where it throws.
 bool run_caught(compiler::Compilation& c, const std::function<bool()>& work) {
@@ -150,6 +154,12 @@ class ShownChoice {
     options.step = kStep;
     const slicer::ViewerPart part =
         slicer::viewer_part(inspection.layers, options);
+    if (part.contours.size() / 3 * 4 + part.facts.size() > kMostBytes) {
+      throw GeometryError(
+          fmt::format("The layers are too many to show: {} MB, at most {}; "
+                      "--layer makes them thicker",
+                      part.contours.size() >> 20U, kMostBytes >> 20U));
+    }
     send(fmt::format(
         R"({{"kind":"part","number":{},"facts":{},"contours":"{}"}})",
         choice_.number, part.facts, base64(part.contours)));
