@@ -145,7 +145,11 @@ class StudioCommand : public Command {
 
   int run(const Context& context) override {
     Terminal terminal(is_quiet_);
-    return run_caught(terminal, {}, [&] { return serve(context, terminal); });
+    return run_caught(terminal, {}, [&] {
+      refuse_if(context.file_access().is_confined(),
+                "studio serves the user who runs it, and takes no --root");
+      return serve(context, terminal);
+    });
   }
 
  private:
@@ -157,7 +161,8 @@ class StudioCommand : public Command {
     options.evaluation_stack = context.stack / 2;
     options.most_seconds = static_cast<unsigned>(
         std::clamp(context.watch.limits().seconds, 1.0, kMostSeconds));
-    if (fs::is_directory(path)) {
+    const auto there = access.look_at(path);
+    if (there && S_ISDIR(there->st_mode)) {
       options.folder = path.ends_with('/') ? path : path + '/';
       options.designs = designs_in(path, access);
       return options;
