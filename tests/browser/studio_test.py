@@ -722,6 +722,9 @@ class UseTest(StudioTest):
         self.assertEqual(self.js(
             "[...byId('figure-metals').rows].map((row) => row.innerText)")[2],
             "Gold 750\t184.8 g")
+        self.assertEqual(self.browser.text("weight"), "")
+        self.enter("metal", "silver-925", "select")
+        self.wait_until("byId('weight').textContent === '124.3 g'")
         self.assertEqual(self.browser.text("figure-size"), "60.00 × 20.00 × 10.00 mm")
 
 

@@ -1,12 +1,8 @@
 // What the print weighs, takes and costs.
 
 class Figures {
-  constructor() {
-    this.report = null;
-  }
-
-  show(report) {
-    this.report = report;
+  // metal  the name of the chosen one; may be empty
+  show(report, metal) {
     const {size, volume, estimate, metals} = report;
     byId("figures").hidden = false;
     byId("figures").classList.remove("old");
@@ -14,6 +10,9 @@ class Figures {
     byId("figure-volume").textContent = word("mm3", fixed(volume, 2));
     byId("figure-estimate").textContent = estimate;
     byId("figure-estimate").hidden = !estimate;
+    const chosen = metals.find(({name}) => name === metal);
+    byId("weight-name").textContent = chosen ? chosen.title : word("weight");
+    byId("weight").textContent = chosen ? word("grams", gramsText(chosen.grams)) : "";
     byId("figure-metals").replaceChildren(...metals.map(({title, grams}) => build("tr", {},
         build("th", {scope: "row", textContent: title}),
         build("td", {textContent: word("grams", gramsText(grams))}))));

@@ -157,7 +157,7 @@ class Studio {
 
   takeReport(report) {
     if (this.shown) this.shown.report = report;
-    this.figures.show(report);
+    this.figures.show(report, this.sent.settings.metal);
     this.comparison.show();
   }
 

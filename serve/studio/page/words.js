@@ -68,6 +68,7 @@ const kStudioWords = {
   figures: "Weight and size",
   sizeOf: "Size",
   volume: "Volume",
+  weight: "Weight",
   grams: "{0} g",
 
   comparison: "Comparison",
