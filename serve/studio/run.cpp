@@ -124,18 +124,18 @@ class ShownChoice {
     const double z =
         bottom + choice_.z.value_or((grid.layer_top(count - 1) - bottom) / 2);
     const std::uint32_t index = std::min(count - 1, grid.layers_below(z));
-    settings.written = {index + 1, index + 1};
+    // At the very height of the layer, it has the contours that it has among
+    // all.
+    settings.heights = {grid.section_z(index)};
     slicer::LayerList list;
     Diagnostics unshown;  // slicing all layers will say it
-    try {
-      slicer::slice(*scene, grid, settings, list, unshown);
-    } catch (const GeometryError&) {
-      return;  // there is nothing in this layer, or in any
-    }
-    if (list.layers.empty()) return;
+    slicer::slice(*scene, ldni::LayerGrid::at_heights(settings.heights),
+                  settings, list, unshown);
+    slicer::Layer& shown = list.layers.front();
+    shown.bottom = grid.layer_bottom(index);
+    shown.top = grid.layer_top(index);
     const Box2 box{Vec2(scene->box.low), Vec2(scene->box.high)};
-    const slicer::ViewerLayer layer =
-        slicer::viewer_layer(list.layers.front(), box, kStep);
+    const slicer::ViewerLayer layer = slicer::viewer_layer(shown, box, kStep);
     seconds_to_layer_ = seconds();
     send(fmt::format(
         R"({{"kind":"layer","number":{},"index":{},"count":{},"bottom":{},)"

@@ -91,7 +91,7 @@ class Viewer {
     this.listPlaces();
     this.describeLayer();
     this.opened = this.openSolid();
-    this.draw();
+    this.drawLayer();
   }
 
   // Shows a layer of the part that comes, as readLayer() makes it.

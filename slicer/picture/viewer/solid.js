@@ -24,6 +24,9 @@ const kQuad = [0, 1, 2, 0, 2, 3];  // corners of its two triangles
 const kPatience = 8;          // of the page, while the solid is made [ms]
 const kWaitFirst = 16;        // at most, for the page to be idle: for the first solid
 const kWaitFull = 100;        // of a part, and for the full one [ms]
+const kSlowDraw = 25;         // of a browser without a graphics card [ms]
+const kRest = 300;            // there, what is shown must be the same for so long [ms]
+const kLook = 4;              // until the next look whether it is drawn [ms]
 
 // How deep places lie in a layer, as far as `reach`; less than 0 outside. Edges
 // near a place are looked at in rings of cells, until no nearer one can come.
@@ -492,6 +495,7 @@ class Solid {
     this.canvas = canvas;
     this.wanted = null;  // the part that is made or shown
     this.first = null;   // fulfilled when the first solid is made that now is
+    this.drawTime = 0;   // that the last drawing took [ms]
     this.forget();
     this.reset();
   }
@@ -513,12 +517,15 @@ class Solid {
   // Makes what is drawn of a part, a rough solid first where the full one takes
   // long, and calls draw() with each. Until the first is made, the part before is
   // shown; then it is finished, even where yet another part is waiting, so that a row
-  // of parts is seen to change. Returns false where another part came meanwhile, and
+  // of parts is seen to change. Without a graphics card that would keep back the
+  // layers: there only the last of a row is made. Returns false where another part came meanwhile, and
   // throws where there is no WebGL.
   async show(part, draw) {
     this.wanted = part;
     this.open();
     const isWanted = () => this.wanted === part;
+    if (this.drawTime > kSlowDraw) await new Promise((resolve) => setTimeout(resolve, kRest));
+    if (!isWanted()) return false;
     while (this.first) {
       await this.first.catch(() => {});
       if (!isWanted()) return false;
@@ -557,6 +564,24 @@ class Solid {
     gl.depthFunc(gl.LEQUAL);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     this.gl = gl;
+  }
+
+  // Notes how long it takes until what has been drawn is there.
+  timeDraw() {
+    const {gl} = this;
+    const begin = performance.now();
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    if (!fence) return;  // the browser has lost what was drawn
+    const look = () => {
+      if (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) {
+        setTimeout(look, kLook);
+        return;
+      }
+      gl.deleteSync(fence);
+      this.drawTime = performance.now() - begin;
+    };
+    setTimeout(look);
   }
 
   // Shows another part from now on, and frees what was made of the one before.
@@ -768,6 +793,7 @@ class Solid {
     paint(rgbOf(color("outline")), 1);
     this.drawOutline(shownLayers(part, state)[index]);
     if (state.marks) this.drawMarks(ratio, use, isWhole ? Infinity : index);
+    this.timeDraw();
   }
 
   forBodies(bodies, drawBody) {
