@@ -157,7 +157,7 @@ class StudioCommand : public Command {
     const FileAccess& access = context.file_access();
     const std::string& path = request_.design.path;
     studio::StudioOptions options;
-    options.request = request_;
+    options.request = studio::with_known_names(request_, access);
     options.evaluation_stack = context.stack / 2;
     options.most_seconds = static_cast<unsigned>(
         std::clamp(context.watch.limits().seconds, 1.0, kMostSeconds));

@@ -118,6 +118,23 @@ Choice read_choice(std::string_view text) {
   return choice;
 }
 
+compiler::Request with_known_names(compiler::Request request,
+                                   const FileAccess& access) {
+  compiler::OutputRequest& output = request.output;
+  const auto is_name = [&](const std::string& text) {
+    return !text.empty() && !access.is_file(text);
+  };
+  if (is_name(output.printer)) {
+    output.printer = slicer::find_printer(output.printer, access).name;
+  }
+  for (std::string* material : {&output.material, &output.metal}) {
+    if (is_name(*material)) {
+      *material = slicer::find_material(*material, access).name;
+    }
+  }
+  return request;
+}
+
 JobChoice job_of(const compiler::Request& request) {
   return {.layer_thickness = request.job.layer_thickness,
           .min_feature = request.job.min_feature,

@@ -52,6 +52,11 @@ struct Names {
   std::vector<std::string> formats;  // extensions
 };
 
+// The request with lamina's own names of its printer, material and metal, where
+// they are not profiles. Throws FileError where there are none such.
+compiler::Request with_known_names(compiler::Request request,
+                                   const FileAccess& access);
+
 // The job that a request asks for.
 JobChoice job_of(const compiler::Request& request);
 

@@ -91,6 +91,28 @@ Json message_json(const Diagnostic& message, std::string text,
 
 Json names_json(const std::vector<std::string>& names) { return Json(names); }
 
+// What a format is, for those who choose one.
+std::string title_of_format(const std::string& extension) {
+  static const std::map<std::string, std::string> kTitles = {
+      {"slc", "layers for wax and resin printers"},
+      {"cli", "Common Layer Interface"},
+      {"svg", "polygons"},
+      {"sl1", "images for Prusa"},
+      {"goo", "images for Elegoo"},
+      {"ctb", "images for ChiTuBox"},
+      {"zip", "images for NanoDLP"},
+      {"nanodlp", "images for NanoDLP"},
+      {"slices.3mf", "a stack of slices"},
+      {"layers.json", "layers in full precision"},
+      {"csg", "the CSG tree"},
+      {"echo", "what the design prints"},
+      {"ast", "the syntax tree"},
+      {"param", "the parameters"}};
+  const auto title = kTitles.find(extension);
+  return title == kTitles.end() ? "." + extension
+                                : "." + extension + ": " + title->second;
+}
+
 }  // namespace
 
 std::string text_of(const Json& json) {
@@ -170,7 +192,8 @@ std::string hello_event(const std::string& client, const Names& names,
                         const std::string& design, const JobChoice& job) {
   Json formats = Json::array();
   for (const std::string& extension : names.formats) {
-    formats.push_back({{"name", extension}, {"title", "." + extension}});
+    formats.push_back(
+        {{"name", extension}, {"title", title_of_format(extension)}});
   }
   return text_of({{"kind", "hello"},
                   {"client", client},

@@ -79,6 +79,17 @@ TEST(Choice, NamesOnlyWhatIsListed) {
             slicer::OutputFormat::kSl1);
 }
 
+TEST(Choice, KnowsPartsOfNames) {
+  compiler::Request request;
+  request.output.printer = "mars 3";
+  request.output.metal = "sterling";
+  const JobChoice job = job_of(with_known_names(request, kAllFiles));
+  EXPECT_EQ(job.printer, "elegoo-mars-3");
+  EXPECT_EQ(job.metal, "sterling-silver");
+  request.output.metal = "unobtainium";
+  EXPECT_THROW(with_known_names(request, kAllFiles), FileError);
+}
+
 TEST(Choice, KeepsToTheLimitsOfOptions) {
   const Names names = known_names({}, {"ring.scad"});
   const auto layer = [&](const char* thickness) {

@@ -232,8 +232,7 @@ TEST(DesignProcess, WritesTheBytesOfTheProgram) {
         Lane::kFile, Bench::body(1, {{"length", "7"}}, {{"format", format}}),
         false, file.descriptor()));
     EXPECT_EQ(sent.answer, R"(200 {"name":"box.)" + format + R"("})");
-    const std::string output =
-        bench.folder().path() + "/x." + format;
+    const std::string output = bench.folder().path() + "/x." + format;
     support::run_process({LAMINA_PROGRAM, "box.scad", "-D", "length=7",
                           "--layer", "0.1", "-o", output},
                          bench.folder().path());
