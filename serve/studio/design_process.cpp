@@ -196,7 +196,7 @@ class DesignLoop {
     }
     const std::uint64_t number = run.choice.number;
     write_frame(output, FrameKind::kEvent, messages_event(number, messages));
-    write_frame(output, FrameKind::kEvent, end_event(number, false, -1, 0));
+    write_frame(output, FrameKind::kLast, end_event(number, false, -1, 0));
   }
 
   void start(Command command) {

@@ -89,8 +89,6 @@ Json message_json(const Diagnostic& message, std::string text,
   return json;
 }
 
-Json names_json(const std::vector<std::string>& names) { return Json(names); }
-
 // What a format is, for those who choose one.
 std::string title_of_format(const std::string& extension) {
   static const std::map<std::string, std::string> kTitles = {
@@ -198,7 +196,7 @@ std::string hello_event(const std::string& client, const Names& names,
   return text_of({{"kind", "hello"},
                   {"client", client},
                   {"version", version()},
-                  {"designs", names_json(names.designs)},
+                  {"designs", names.designs},
                   {"design", design},
                   {"settings",
                    {{"layer", job.layer_thickness},
@@ -207,9 +205,9 @@ std::string hello_event(const std::string& client, const Names& names,
                     {"printer", job.printer},
                     {"material", job.material},
                     {"metal", job.metal}}},
-                  {"printers", names_json(names.printers)},
-                  {"materials", names_json(names.materials)},
-                  {"metals", names_json(names.metals)},
+                  {"printers", names.printers},
+                  {"materials", names.materials},
+                  {"metals", names.metals},
                   {"formats", std::move(formats)}});
 }
 
@@ -223,7 +221,7 @@ std::string file_answer(std::uint64_t number, const std::string& name) {
 }
 
 std::string changed_event(const std::vector<std::string>& files) {
-  return text_of({{"kind", "changed"}, {"files", names_json(files)}});
+  return text_of({{"kind", "changed"}, {"files", files}});
 }
 
 std::string end_event(std::uint64_t number, bool is_well,

@@ -12,6 +12,7 @@ namespace lamina::studio {
 
 enum class FrameKind : char {
   kEvent = 'e',   // JSON for the page, as docs/studio.md has it
+  kLast = 'l',    // the last event of a choice, likewise
   kFiles = 'f',   // the files that the design depends on, each with a '\n'
   kAnswer = 'a',  // of an output or a source: a status and JSON, "200 {…}"
 };

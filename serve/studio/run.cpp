@@ -84,7 +84,9 @@ class ShownChoice {
     const bool is_well = run_caught(c_, [&] { return make(); });
     send_files();
     send_messages();
-    send(end_event(choice_.number, is_well, seconds_to_layer_, seconds()));
+    send_frame(
+        output_, FrameKind::kLast,
+        end_event(choice_.number, is_well, seconds_to_layer_, seconds()));
   }
 
  private:

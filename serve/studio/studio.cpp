@@ -26,6 +26,9 @@ using http::Response;
 constexpr std::size_t kMostClients = 16;
 constexpr std::size_t kMostFiles = 16;  // that can be fetched
 
+constexpr const char* kGivenUp = "This was given up: something has changed.";
+constexpr const char* kLost = "The process of the design has ended.";
+
 constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 
@@ -54,6 +57,16 @@ std::string file_name(const std::string& name) {
     plain += is_plain ? c : '_';
   }
   return plain;
+}
+
+// What can be read now. Empty at the end; no value where there is nothing: the
+// server may call for what a descriptor of the same number had.
+std::optional<std::string> read_some(const OpenFile& pipe) {
+  std::string bytes(1 << 16, '\0');
+  const ssize_t size = ::read(pipe.descriptor(), bytes.data(), bytes.size());
+  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
+  bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  return bytes;
 }
 
 std::string cookie_name(std::uint16_t port) {
@@ -235,6 +248,7 @@ void Studio::change(Client& client, const Choice& choice,
     client.process.reset();
     return reply->send(text(503, "The system grants no process."));
   }
+  client.number = choice.number;
   reply->send(text(202, ""));
   server_.on_readable(client.shown.descriptor(),
                       [this, &client] { read_shown(client); });
@@ -242,7 +256,7 @@ void Studio::change(Client& client, const Choice& choice,
 
 void Studio::make(Client& client, const Choice& choice, const std::string& body,
                   bool is_source, const Reply& reply) {
-  end_made(client);
+  end_made(client, kGivenUp);
   DesignProcess& process = process_for(client, choice.design);
   if (!is_source) {
     client.file = OpenFile(temporary_files_.open_nameless());
@@ -260,28 +274,30 @@ void Studio::make(Client& client, const Choice& choice, const std::string& body,
                       [this, &client] { read_made(client); });
 }
 
-namespace {
-
-// What can be read now. Empty at the end; no value where there is nothing: the
-// server may call for what a descriptor of the same number had.
-std::optional<std::string> read_some(const OpenFile& pipe) {
-  std::string bytes(1 << 16, '\0');
-  const ssize_t size = ::read(pipe.descriptor(), bytes.data(), bytes.size());
-  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
-  bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-  return bytes;
-}
-
-}  // namespace
-
 void Studio::read_shown(Client& client) {
   const std::optional<std::string> bytes = read_some(client.shown);
   if (!bytes) return;
-  if (bytes->empty()) return end_shown(client);
+  if (bytes->empty()) {
+    end_shown(client);
+    return say_lost(client);
+  }
   client.frames.add(*bytes, [&](FrameKind kind, const std::string& frame) {
-    if (kind == FrameKind::kEvent) send(client, frame);
-    if (kind == FrameKind::kFiles) take_files(client, frame);
+    if (kind == FrameKind::kFiles) return take_files(client, frame);
+    if (kind == FrameKind::kLast) client.number = 0;
+    send(client, frame);
   });
+}
+
+// Ends a choice whose process has ended before it: the design's own, too.
+void Studio::say_lost(Client& client) {
+  const std::uint64_t number = std::exchange(client.number, 0);
+  if (number == 0) return;
+  client.process.reset();
+  const Diagnostic why{Severity::kError,
+                       {},
+                       "the process of the design was ended by the system"};
+  send(client, messages_event(number, messages_json({why}, "")));
+  send(client, end_event(number, false, -1, 0));
 }
 
 void Studio::read_made(Client& client) {
@@ -292,7 +308,7 @@ void Studio::read_made(Client& client) {
     if (kind == FrameKind::kAnswer) answer = std::move(frame);
   });
   if (answer) return finish_made(client, std::move(*answer));
-  if (bytes->empty()) end_made(client);
+  if (bytes->empty()) end_made(client, kLost);
 }
 
 // answer  "200 {…}"
@@ -309,7 +325,7 @@ void Studio::finish_made(Client& client, std::string answer) {
     if (made_files_.size() > kMostFiles) made_files_.erase(made_files_.begin());
     json = file_answer(number, name);
   }
-  end_made(client);
+  end_made(client, kLost);
   Response response = content(kJson, std::move(json));
   response.status = status;
   if (reply) reply->send(std::move(response));
@@ -321,7 +337,7 @@ void Studio::end_shown(Client& client) {
   client.frames = FrameReader();
 }
 
-void Studio::end_made(Client& client) {
+void Studio::end_made(Client& client, const char* why) {
   if (client.made) {
     server_.forget(client.made.descriptor());
     if (client.process) client.process->end(Lane::kFile);
@@ -330,7 +346,7 @@ void Studio::end_made(Client& client) {
   client.made_frames = FrameReader();
   client.file = OpenFile();
   if (const Reply reply = std::exchange(client.waiting, nullptr)) {
-    reply->send(text(503, "This was given up for a later request."));
+    reply->send(text(503, why));
   }
 }
 
@@ -338,7 +354,7 @@ void Studio::drop(const std::string& name) {
   const auto found = clients_.find(name);
   if (found == clients_.end()) return;
   end_shown(*found->second);
-  end_made(*found->second);
+  end_made(*found->second, kGivenUp);
   clients_.erase(found);
 }
 
@@ -384,7 +400,7 @@ void Studio::tell_changes() {
     if (files.empty()) continue;
     // The process has read the design as it was.
     end_shown(*client);
-    end_made(*client);
+    end_made(*client, kGivenUp);
     client->process.reset();
     for (std::string& file : files) file = shown_path(file);
     send(*client, changed_event(files));

@@ -67,6 +67,8 @@ class Studio {
     std::string design;                      // that `process` has read
     std::unique_ptr<DesignProcess> process;  // null: none has been needed
     OpenFile shown;                          // pipe of the run that is shown
+    std::uint64_t number =
+        0;  // of the choice whose last event is to come, or 0
     FrameReader frames;
     std::set<std::string> files;            // that the design depends on
     std::filesystem::file_time_type begin;  // of the run
@@ -101,7 +103,9 @@ class Studio {
   void read_made(Client& client);
   void finish_made(Client& client, std::string answer);
   void end_shown(Client& client);
-  void end_made(Client& client);
+  // why  for who waits for what is made, if somebody does
+  void end_made(Client& client, const char* why);
+  void say_lost(Client& client);
   void drop(const std::string& name);
   void take_files(Client& client, const std::string& list);
   void watch_files(std::filesystem::file_time_type since);

@@ -66,7 +66,7 @@ Sent read_all(const OpenFile& pipe) {
     if (size <= 0) return sent;
     frames.add({bytes.data(), static_cast<std::size_t>(size)},
                [&](FrameKind kind, const std::string& frame) {
-                 if (kind == FrameKind::kEvent) {
+                 if (kind == FrameKind::kEvent || kind == FrameKind::kLast) {
                    sent.events.push_back(Json::parse(frame));
                  } else if (kind == FrameKind::kFiles) {
                    sent.files.push_back(frame);

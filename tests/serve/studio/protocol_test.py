@@ -6,6 +6,7 @@ usage: protocol_test.py LAMINA [unittest's arguments]
 import http.client
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -176,6 +177,24 @@ class ProtocolTest(unittest.TestCase):
         self.wait_for_processes(studio, 2)
         self.assertTrue(page.show()["end"]["isWell"])
         self.wait_for_processes(studio, 1)
+        page.close()
+        studio.close()
+
+    def test_a_process_that_is_killed_is_told_of(self):
+        self.page.show()
+        self.write("endless.scad", "cube(1 + len([for (i = [0 : 9000], "
+                   "j = [0 : 9000], k = [0 : 9000]) if (i < 0) 0]));\n")
+        studio = Studio(self.path("endless.scad"))
+        page = Page(studio)
+        self.assertEqual(page.change(), 202)
+        self.wait_for_processes(studio, 2)
+        os.kill(studio.processes()[0], signal.SIGKILL)
+        while (event := page.take())["kind"] != "messages":
+            pass
+        self.assertIn("ended by the system", event["messages"][0]["message"])
+        self.assertFalse(page.take()["isWell"])
+        self.assertEqual(page.change(), 202)
+        self.wait_for_processes(studio, 2)
         page.close()
         studio.close()
 
