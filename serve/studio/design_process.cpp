@@ -124,7 +124,8 @@ class DesignLoop {
   DesignLoop(const DesignProcess::Options& options, int commands)
       : options_(options),
         commands_(commands),
-        design_(options.request, options.temporary_files) {}
+        temporary_files_(options.temporary_files.file_access()),
+        design_(options.request, temporary_files_) {}
 
   void run() {
     read();
@@ -226,7 +227,7 @@ class DesignLoop {
       design_.request = std::move(request);
       make(design_, choice, output);
     } else {
-      compiler::Compilation anew(std::move(request), options_.temporary_files);
+      compiler::Compilation anew(std::move(request), temporary_files_);
       anew.evaluation_stack = options_.evaluation_stack;
       make(anew, choice, output);
     }
@@ -249,6 +250,9 @@ class DesignLoop {
 
   const DesignProcess::Options& options_;
   const int commands_;
+  // Its own: another thread may have held those of the studio when this process
+  // was copied.
+  TemporaryFiles temporary_files_;
   compiler::Compilation design_;
   std::array<std::optional<Run>, kLanes> lanes_;
   bool can_read_command_ = false;
