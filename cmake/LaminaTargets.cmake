@@ -43,6 +43,20 @@ function(lamina_add_library name)
   endif()
 endfunction()
 
+# lamina_read_texts(<variable> <file>…)
+# sets the variable to the texts of the files, one behind another. A change of one
+# of them configures anew.
+function(lamina_read_texts variable)
+  set(all "")
+  foreach(file IN LISTS ARGN)
+    file(READ ${file} text)
+    string(APPEND all "${text}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+                 ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endforeach()
+  set(${variable} "${all}" PARENT_SCOPE)
+endfunction()
+
 # lamina_add_test(<name> LABEL <label> SOURCES … DEPENDS …)
 # makes a GoogleTest program whose cases ctest runs one by one. Its own files are
 # optimised little: it runs what the libraries do, and compiles in half the time.
