@@ -1,6 +1,5 @@
 #include "cli/commands/watch.h"
 
-#include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <set>
@@ -21,9 +20,6 @@ namespace lamina::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The times of files come from a clock that ticks this seldom, at most.
-constexpr std::chrono::milliseconds kClockStep{10};
 
 // The files that are known before the compilation.
 std::set<std::string> given_files(const compiler::Request& request) {
@@ -78,7 +74,7 @@ void compile_and_watch(const compiler::Request& request, const Closing& closing,
   std::set<std::string> watched = given_files(request);
   watcher.watch(watched, fs::file_time_type::max());
   while (true) {
-    const auto begin = fs::file_time_type::clock::now() - kClockStep;
+    const auto begin = studio::FileWatcher::now();
     std::set<std::string> files = given_files(request);
     const bool is_done =
         compile_once(request, closing, is_quiet, context, files);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <system_error>
@@ -19,6 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A tick of the clock of files, at most.
+constexpr std::chrono::milliseconds kClockStep{10};
+
 constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO;
 
 [[noreturn]] void fail() {
@@ -26,6 +30,10 @@ constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO;
 }
 
 }  // namespace
+
+fs::file_time_type FileWatcher::now() {
+  return fs::file_time_type::clock::now() - kClockStep;
+}
 
 FileWatcher::FileWatcher()
     : inotify_(::inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {

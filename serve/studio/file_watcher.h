@@ -20,6 +20,10 @@ class FileWatcher {
   // The steps of one save are at most so far apart.
   static constexpr int kQuietMilliseconds = 100;
 
+  // The time that a file has which is written from now on, or an earlier one:
+  // the times of files come from a clock that ticks seldom.
+  static std::filesystem::file_time_type now();
+
   // Throws FileError where the system cannot watch.
   FileWatcher();
 

@@ -32,9 +32,6 @@ constexpr const char* kLost = "The process of the design has ended.";
 constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 
-// The times of files come from a clock that ticks this seldom, at most.
-constexpr std::chrono::milliseconds kClockStep{10};
-
 Response text(unsigned status, std::string words) {
   Response response;
   response.status = status;
@@ -242,7 +239,7 @@ DesignProcess& Studio::process_for(Client& client, const std::string& design) {
 void Studio::change(Client& client, const Choice& choice,
                     const std::string& body, const Reply& reply) {
   end_shown(client);
-  client.begin = std::filesystem::file_time_type::clock::now() - kClockStep;
+  client.begin = FileWatcher::now();
   client.shown = process_for(client, choice.design).start(Lane::kShown, body);
   if (!client.shown) {
     client.process.reset();
