@@ -33,6 +33,10 @@ Request as_drawn(Request request) {
   return request;
 }
 
+bool is_design(const std::string& path) {
+  return slicer::is_named(path, ".scad") || slicer::is_named(path, ".csg");
+}
+
 bool is_imported(const std::string& path) {
   constexpr std::array<std::string_view, 14> kExtensions = {
       ".stl",   ".off",  ".obj", ".ply",  ".amf", ".3mf",  ".dxf",

@@ -140,6 +140,10 @@ Request as_drawn(Request request);
 // either; import() takes its mesh.)
 bool is_imported(const std::string& path);
 
+// Whether the path has the name of a design in OpenSCAD's language, in any
+// letter case.
+bool is_design(const std::string& path);
+
 // Whether parts of the file have names or numbers that lamina reads: a file of
 // a CAD program or a 3MF. By its name.
 bool has_parts(const std::string& path);

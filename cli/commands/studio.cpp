@@ -30,7 +30,6 @@
 #include "cli/report/session.h"
 #include "compiler/validate.h"
 #include "serve/http/server.h"
-#include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
 namespace {
@@ -93,9 +92,7 @@ std::vector<std::string> designs_in(const std::string& folder,
   std::vector<std::string> designs;
   for (const std::string& name :
        access.list(folder).value_or(std::vector<std::string>())) {
-    if (slicer::is_named(name, ".scad") || slicer::is_named(name, ".csg")) {
-      designs.push_back(name);
-    }
+    if (compiler::is_design(name)) designs.push_back(name);
   }
   std::ranges::sort(designs);
   if (designs.empty()) {

@@ -147,10 +147,6 @@ class ComparedDesign : public Compared {
   double greatest_coordinate_ = 0;
 };
 
-bool is_design(const std::string& path) {
-  return slicer::is_named(path, ".scad") || slicer::is_named(path, ".csg");
-}
-
 }  // namespace
 
 std::vector<Layer> Compared::cut(const std::vector<double>& /*heights*/) {
