@@ -285,8 +285,9 @@ struct Design::State {
     require_valid(asked);
     Messages shown(show);
     return shown.run([&](Diagnostics& diagnostics) {
-      return compiler::look_at_design(lowered, asked, {}, wanted, {},
-                                      diagnostics);
+      return compiler::look_at_design(
+          lowered, compiler::plan(lowered, compiler::settings_of(asked, {})),
+          asked, {}, wanted, {}, diagnostics);
     });
   }
 

@@ -72,6 +72,9 @@ struct Compilation {
     return request.output.is_strict.value_or(file_access().is_confined());
   }
 
+  // Whether read_design() has been called.
+  bool is_read() const { return design.program.source != nullptr; }
+
   // The number of messages of a severity so far.
   std::size_t count(Severity severity) const;
 
@@ -89,7 +92,6 @@ struct Compilation {
   Diagnostics diagnostics;
   Loader loader;
   Readers readers;
-  bool is_read = false;  // read_design() has made `design`
   // A pass failed and has reported why. The next ones may still run, for what
   // they report; no layers can be made.
   bool has_failed = false;

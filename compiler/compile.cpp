@@ -101,7 +101,7 @@ void load_design(Compilation& c) {
   add_sprues(c);
   choose_direction(c);
   add_supports(c);
-  if (!c.is_read) read_design(c);
+  if (!c.is_read()) read_design(c);
   set_parameters(c.request.design, c.file_access(), c.design, c.diagnostics);
   if (!c.design.has_parameters) c.has_failed = true;
 }
@@ -271,7 +271,6 @@ void read_design(Compilation& c) {
   c.design = timed(c.report.load_seconds, [&] {
     return read(c.request.design, c.loader, c.diagnostics);
   });
-  c.is_read = true;
 }
 
 bool make_tree(Compilation& c) {

@@ -132,14 +132,15 @@ Inspection look_at_file(const std::string& path, const LookOptions& options,
   return looker.finish(path, std::move(facts));
 }
 
-Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
+Inspection look_at_design(const csg::Lowered& lowered,
+                          const ldni::LayerGrid& grid, const Request& request,
                           const Machine& machine, const LookOptions& options,
                           const Progress& progress, Diagnostics& diagnostics) {
   slicer::Settings settings = settings_of(request, machine);
   settings.keeps_colors = options.keeps_colors;
   Looker looker(options, false, {});
-  slicer::SliceReport report = slice(lowered, plan(lowered, settings), settings,
-                                     looker, progress, diagnostics);
+  slicer::SliceReport report =
+      slice(lowered, grid, settings, looker, progress, diagnostics);
   slicer::LayerFileFacts exact;
   exact.is_float32 = false;
   Inspection inspection = looker.finish(request.design.path, std::move(exact));
@@ -167,8 +168,9 @@ std::optional<Inspection> look_at(Compilation& c, const LookOptions& options) {
   }
   const auto lowered = make_geometry(c);
   if (!lowered) return std::nullopt;
-  Inspection inspection = look_at_design(*lowered, request, c.report.machine,
-                                         options, c.on_progress, c.diagnostics);
+  Inspection inspection = look_at_design(
+      *lowered, plan(*lowered, settings_of(request, c.report.machine)), request,
+      c.report.machine, options, c.on_progress, c.diagnostics);
   if (options.finds_defects && is_imported(path)) {
     inspection.found.meshes = csg::measure_mesh_file(path, c.file_access());
   }

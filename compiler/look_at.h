@@ -9,6 +9,7 @@
 
 #include "base/file/file_access.h"
 #include "compiler/compilation.h"
+#include "ldni/section/grid.h"
 #include "slicer/check/defects/inspect.h"
 #include "slicer/thickness/thin_places.h"
 
@@ -72,7 +73,10 @@ Inspection look_at_file(const std::string& path, const LookOptions& options,
                         const FileAccess& access);
 
 // Looks at a design that has been made for a machine.
-Inspection look_at_design(const csg::Lowered& lowered, const Request& request,
+//
+// grid  of plan(), by the settings of the request and the machine
+Inspection look_at_design(const csg::Lowered& lowered,
+                          const ldni::LayerGrid& grid, const Request& request,
                           const Machine& machine, const LookOptions& options,
                           const Progress& progress, Diagnostics& diagnostics);
 

@@ -39,11 +39,10 @@ struct Command {
 };
 
 // Sends a command; false where nobody takes it.
-bool send_command(int socket, const Head& head, const std::string& body,
+bool send_command(int socket, Head head, const std::string& body,
                   const std::vector<int>& files) {
-  Head head_bytes = head;
   std::array<iovec, 2> parts = {
-      iovec{&head_bytes, sizeof head_bytes},
+      iovec{&head, sizeof head},
       iovec{const_cast<char*>(body.data()), body.size()}};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(kMostFiles * sizeof(int))>
       control{};
@@ -155,11 +154,14 @@ class DesignLoop {
     return static_cast<std::size_t>(lane) % kLanes;
   }
 
-  // Parses the design. Where that fails, each run does it again and says why.
+  // Parses the design, and makes its form. Where that fails, each run does it
+  // again and says why.
   void read() {
     design_.evaluation_stack = options_.evaluation_stack;
     try {
       compiler::read_design(design_);
+      form_ = form_of(design_.design.program, options_.request.design.path,
+                      design_.file_access(), design_.diagnostics);
     } catch (const Error&) {
     }
   }
@@ -225,24 +227,24 @@ class DesignLoop {
       write_source(design_, choice, output);
     } else if (can_go_on(request)) {
       design_.request = std::move(request);
-      make(design_, choice, output);
+      make(design_, choice, &*form_, output);
     } else {
       compiler::Compilation anew(std::move(request), temporary_files_);
       anew.evaluation_stack = options_.evaluation_stack;
-      make(anew, choice, output);
+      make(anew, choice, nullptr, output);
     }
   }
 
   // Whether the design as it was read is that of the request.
   bool can_go_on(const compiler::Request& request) const {
-    return !options_.reads_anew && design_.is_read && !request.supports &&
+    return !options_.reads_anew && form_ && !request.supports &&
            !request.sprues && request.geometry.searched_direction == 0;
   }
 
   static void make(compiler::Compilation& compilation, const Choice& choice,
-                   int output) {
+                   const Form* form, int output) {
     if (choice.format.empty()) {
-      show_choice(compilation, choice, output);
+      show_choice(compilation, choice, form, output);
     } else {
       write_output(compilation, choice, output);
     }
@@ -254,6 +256,7 @@ class DesignLoop {
   // was copied.
   TemporaryFiles temporary_files_;
   compiler::Compilation design_;
+  std::optional<Form> form_;  // of the design, if it could be read
   std::array<std::optional<Run>, kLanes> lanes_;
   bool can_read_command_ = false;
 };

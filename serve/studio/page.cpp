@@ -19,9 +19,7 @@ std::string page_style() {
 }
 
 std::string page_script() {
-  return std::string("\"use strict\";\n")
-      .append(slicer::viewer_script())
-      .append(kPageScript);
+  return std::string(slicer::viewer_script()).append(kPageScript);
 }
 
 }  // namespace lamina::studio

@@ -77,8 +77,9 @@ void send_messages(const compiler::Compilation& c, int output) {
 
 class ShownChoice {
  public:
-  ShownChoice(compiler::Compilation& c, const Choice& choice, int output)
-      : c_(c), choice_(choice), output_(output) {}
+  ShownChoice(compiler::Compilation& c, const Choice& choice, const Form* form,
+              int output)
+      : c_(c), choice_(choice), form_(form), output_(output) {}
 
   void show() {
     const bool is_well = run_caught(c_, [&] { return make(); });
@@ -91,35 +92,38 @@ class ShownChoice {
 
  private:
   bool make() {
-    if (!c_.is_read) compiler::read_design(c_);
-    send_form();
+    if (!c_.is_read()) compiler::read_design(c_);
+    if (form_ != nullptr) {
+      send_form(*form_);
+    } else {
+      send_form(form_of(c_.design.program, c_.request.design.path,
+                        c_.file_access(), c_.diagnostics));
+    }
     if (!compiler::make_tree(c_)) return false;
     send_files();
     send_messages();
     c_.report.machine =
         compiler::choose_machine(c_.request.output, c_.file_access());
     const csg::Lowered lowered = compiler::lower_tree(c_);
-    send_layer_in_view(lowered);
-    send_all(lowered);
+    const ldni::LayerGrid grid = compiler::plan(
+        lowered, compiler::settings_of(c_.request, c_.report.machine));
+    send_layer_in_view(lowered, grid);
+    send_all(lowered, grid);
     return true;
   }
 
-  // A design that is to be read in the run itself has its form already, or
-  // fails.
-  void send_form() {
-    const Form form = form_of(c_.design.program, c_.request.design.path,
-                              c_.file_access(), c_.diagnostics);
+  void send_form(const Form& form) {
     if (form.key != choice_.form) send(form_event(choice_.number, form));
   }
 
   // The layer that the page shows now, before all others.
-  void send_layer_in_view(const csg::Lowered& lowered) {
+  void send_layer_in_view(const csg::Lowered& lowered,
+                          const ldni::LayerGrid& grid) {
     const csg::Scene* scene = lowered.scene();
     if (scene == nullptr) return;
     slicer::Settings settings = settings_of(c_.request, c_.report.machine);
     settings.min_feature = 0;
     settings.finds_makers = false;
-    const ldni::LayerGrid grid = slicer::plan_layers(*scene, settings);
     const std::uint32_t count = grid.layer_count();
     if (count == 0) return;
     const double bottom = grid.layer_bottom(0);
@@ -146,9 +150,9 @@ class ShownChoice {
         box.high.y, layer.step, layer.row, base64(layer.contours)));
   }
 
-  void send_all(const csg::Lowered& lowered) {
+  void send_all(const csg::Lowered& lowered, const ldni::LayerGrid& grid) {
     const compiler::Inspection inspection = compiler::look_at_design(
-        lowered, c_.request, c_.report.machine,
+        lowered, grid, c_.request, c_.report.machine,
         {.makes_graph = true, .keeps_layers = true, .keeps_colors = true},
         c_.on_progress, c_.diagnostics);
     slicer::ViewerOptions options =
@@ -197,6 +201,7 @@ class ShownChoice {
 
   compiler::Compilation& c_;
   const Choice& choice_;
+  const Form* const form_;
   const int output_;
   const std::chrono::steady_clock::time_point begin_ =
       std::chrono::steady_clock::now();
@@ -207,8 +212,8 @@ class ShownChoice {
 }  // namespace
 
 void show_choice(compiler::Compilation& compilation, const Choice& choice,
-                 int output) {
-  ShownChoice(compilation, choice, output).show();
+                 const Form* form, int output) {
+  ShownChoice(compilation, choice, form, output).show();
 }
 
 void write_output(compiler::Compilation& c, const Choice& choice, int output) {
@@ -224,7 +229,7 @@ void write_output(compiler::Compilation& c, const Choice& choice, int output) {
 void write_source(compiler::Compilation& c, const Choice& choice, int output) {
   const std::string& path = c.request.design.path;
   const bool is_done = run_caught(c, [&] {
-    if (!c.is_read) compiler::read_design(c);
+    if (!c.is_read()) compiler::read_design(c);
     const SourceEdit edit = edit_source(c.design.program, choice.values,
                                         c.design.language, c.diagnostics);
     if (choice.key.empty()) {

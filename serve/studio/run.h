@@ -14,9 +14,10 @@ namespace lamina::studio {
 // then all layers, then what they weigh.
 //
 // compilation  has the choice's request, and has read the design or will
+// form         of the design; null: not known
 // output       the pipe
 void show_choice(compiler::Compilation& compilation, const Choice& choice,
-                 int output);
+                 const Form* form, int output);
 
 // Compiles the choice to the format that it names, into standard output. Sends
 // an answer: 200, or 422 with the messages.

@@ -29,7 +29,7 @@ class ComparedDrawing extends Drawing {
   keptLayer(state) {
     const {layer, bed} = this.layerOf(state);
     const {layers} = this.kept;
-    const height = (layer.bottom + layer.top) / 2 - bed;
+    const height = middleOf(layer, bed);
     const index = layerAt(layers, height);
     const isThere = layers[0].bottom + height < layers[layers.length - 1].top;
     return {index, isThere,
