@@ -24,12 +24,18 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 VIEWER = os.path.join(ROOT, "slicer", "picture", "viewer")
 PAGE = os.path.join(ROOT, "serve", "studio", "page")
-# In the order in which they are one script.
-with open(os.path.join(VIEWER, "..", "CMakeLists.txt"), encoding="utf-8") as lists:
-    VIEWER_SCRIPTS = re.findall(r"[a-z]+\.js", lists.read().split("script IN ITEMS")[1].split(")")[0])
-PAGE_SCRIPTS = ["words.js", "wire.js", "values.js", "choice.js", "fields.js",
-                "form.js", "messages.js", "figures.js", "sets.js", "compare.js",
-                "actions.js", "studio.js"]
+
+
+def scripts_of(folder, variable):
+    """The scripts that the build puts one behind another."""
+    with open(os.path.join(folder, "..", "CMakeLists.txt"),
+              encoding="utf-8") as file:
+        listed = file.read().split(f"read_texts({variable}")[1].split(")")[0]
+    return re.findall(r"[a-z]+\.js", listed)
+
+
+VIEWER_SCRIPTS = scripts_of(VIEWER, "LAMINA_VIEWER_SCRIPT")
+PAGE_SCRIPTS = scripts_of(PAGE, "LAMINA_STUDIO_SCRIPT")
 
 POLICY = ("default-src 'none'; script-src 'self'; style-src 'self'; "
           "img-src 'self' data:; connect-src 'self'; base-uri 'none'; "
