@@ -79,8 +79,10 @@ Sent read_all(const OpenFile& pipe) {
 
 class Bench {
  public:
+  // sets  of the file beside the design; empty: there is none
   explicit Bench(const std::string& text, bool reads_anew = false,
-                 unsigned most_seconds = 60) {
+                 unsigned most_seconds = 60, const std::string& sets = "") {
+    if (!sets.empty()) folder_.write("box.json", sets);
     folder_.write("box.scad", text);
     DesignProcess::Options options{.request = {},
                                    .names = known_names({}, {"box.scad"}),
@@ -158,8 +160,7 @@ TEST(DesignProcess, SendsTheFormToThoseThatLackIt) {
 }
 
 TEST(DesignProcess, SendsTheSetsBesideTheDesign) {
-  Bench bench(kBox);
-  bench.folder().write("box.json", R"({"parameterSets":
+  Bench bench(kBox, false, 60, R"({"parameterSets":
     {"long": {"length": "20"}}, "fileFormatVersion": "1"})");
   const Json sets = bench.show(1).last("form")["sets"];
   EXPECT_EQ(sets, Json::parse(R"([{"name": "long", "values":

@@ -268,6 +268,15 @@ class ProtocolTest(unittest.TestCase):
             self.assertAlmostEqual(page.show()["report"]["volume"], 40)
         other.close()
 
+    def test_follows_the_sets_beside_the_design(self):
+        form = self.page.show()["form"]
+        self.assertEqual(form["sets"], [])
+        self.write("box.json", '{"parameterSets": {"long": {"length": "20"}}, '
+                   '"fileFormatVersion": "1"}')
+        self.assertEqual(self.page.take()["kind"], "changed")
+        self.assertEqual(self.page.show(form=form["key"])["form"]["sets"],
+                         [{"name": "long", "values": {"length": "20"}}])
+
     def test_slow_readers_do_not_stop_others(self):
         slow = Page(self.studio)
         thread = threading.Thread(target=lambda: [
