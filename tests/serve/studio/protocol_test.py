@@ -104,11 +104,17 @@ class Studio:
     def processes(self):
         """The server's children and theirs."""
         def children(pid):
+            found = []
             path = f"/proc/{pid}/task"
-            for thread in os.listdir(path):
-                with open(f"{path}/{thread}/children", encoding="ascii") as file:
-                    yield from map(int, file.read().split())
-        own = list(children(self.process.pid))
+            try:
+                for thread in os.listdir(path):
+                    with open(f"{path}/{thread}/children",
+                              encoding="ascii") as file:
+                        found += map(int, file.read().split())
+            except (FileNotFoundError, ProcessLookupError):
+                pass  # it has just ended
+            return found
+        own = children(self.process.pid)
         return own + [pid for child in own for pid in children(child)]
 
 
