@@ -30,6 +30,7 @@
 #include "cli/report/session.h"
 #include "compiler/validate.h"
 #include "serve/http/server.h"
+#include "serve/run/names.h"
 
 namespace lamina::cli {
 namespace {
@@ -154,7 +155,7 @@ class StudioCommand : public Command {
     const FileAccess& access = context.file_access();
     const std::string& path = request_.design.path;
     studio::StudioOptions options;
-    options.request = studio::with_known_names(request_, access);
+    options.request = serve::with_known_names(request_, access);
     options.evaluation_stack = context.stack / 2;
     options.most_seconds = static_cast<unsigned>(
         std::clamp(context.watch.limits().seconds, 1.0, kMostSeconds));

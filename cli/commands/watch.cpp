@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
-#include "serve/studio/file_watcher.h"
+#include "serve/run/file_watcher.h"
 
 namespace lamina::cli {
 namespace {
@@ -69,12 +69,12 @@ bool compile_once(const compiler::Request& request, const Closing& closing,
 void compile_and_watch(const compiler::Request& request, const Closing& closing,
                        bool is_quiet, const Context& context) {
   context.watch.time_parts();
-  studio::FileWatcher watcher;
+  serve::FileWatcher watcher;
   Terminal terminal(is_quiet);
   std::set<std::string> watched = given_files(request);
   watcher.watch(watched, fs::file_time_type::max());
   while (true) {
-    const auto begin = studio::FileWatcher::now();
+    const auto begin = serve::FileWatcher::now();
     std::set<std::string> files = given_files(request);
     const bool is_done =
         compile_once(request, closing, is_quiet, context, files);

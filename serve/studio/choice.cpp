@@ -7,8 +7,6 @@
 
 #include "compiler/validate.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/machine/material.h"
-#include "slicer/machine/printer.h"
 
 namespace lamina::studio {
 namespace {
@@ -85,18 +83,6 @@ JobChoice read_job(const Json& json) {
           .metal = members.text("metal")};
 }
 
-void require_name(const std::vector<std::string>& names,
-                  const std::string& name, const char* what) {
-  if (name.empty() || std::ranges::find(names, name) != names.end()) return;
-  throw ChoiceError(fmt::format("there is no {} '{}'", what, name));
-}
-
-// Puts a name in front of a list that does not have it.
-void add_name(std::vector<std::string>& names, const std::string& name) {
-  if (name.empty() || std::ranges::find(names, name) != names.end()) return;
-  names.insert(names.begin(), name);
-}
-
 }  // namespace
 
 Choice read_choice(std::string_view text) {
@@ -118,23 +104,6 @@ Choice read_choice(std::string_view text) {
   return choice;
 }
 
-compiler::Request with_known_names(compiler::Request request,
-                                   const FileAccess& access) {
-  compiler::OutputRequest& output = request.output;
-  const auto is_name = [&](const std::string& text) {
-    return !text.empty() && !access.is_file(text);
-  };
-  if (is_name(output.printer)) {
-    output.printer = slicer::find_printer(output.printer, access).name;
-  }
-  for (std::string* material : {&output.material, &output.metal}) {
-    if (is_name(*material)) {
-      *material = slicer::find_material(*material, access).name;
-    }
-  }
-  return request;
-}
-
 JobChoice job_of(const compiler::Request& request) {
   return {.layer_thickness = request.job.layer_thickness,
           .min_feature = request.job.min_feature,
@@ -144,34 +113,13 @@ JobChoice job_of(const compiler::Request& request) {
           .metal = request.output.metal};
 }
 
-Names known_names(const compiler::Request& request,
-                  std::vector<std::string> designs) {
-  Names names;
-  names.designs = std::move(designs);
-  for (const slicer::Printer& printer : slicer::known_printers()) {
-    names.printers.push_back(printer.name);
-  }
-  for (const slicer::Material& material : slicer::known_materials()) {
-    (material.is_metal() ? names.metals : names.materials)
-        .push_back(material.name);
-  }
-  add_name(names.printers, request.output.printer);
-  add_name(names.materials, request.output.material);
-  add_name(names.metals, request.output.metal);
-  // A folder is not one file.
-  for (std::string& extension : slicer::written_extensions()) {
-    if (extension != "png") names.formats.push_back(std::move(extension));
-  }
-  return names;
-}
-
 compiler::Request request_of(const Choice& choice,
                              const compiler::Request& base,
-                             const Names& names) {
-  require_name(names.printers, choice.job.printer, "printer");
-  require_name(names.materials, choice.job.material, "material");
-  require_name(names.metals, choice.job.metal, "metal");
-  require_name(names.formats, choice.format, "format");
+                             const serve::Names& names) {
+  serve::require_name(names.printers, choice.job.printer, "printer");
+  serve::require_name(names.materials, choice.job.material, "material");
+  serve::require_name(names.metals, choice.job.metal, "metal");
+  serve::require_name(names.formats, choice.format, "format");
   compiler::Request request = base;
   request.design.parameters = choice.values;
   request.job.layer_thickness = choice.job.layer_thickness;

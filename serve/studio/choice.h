@@ -10,6 +10,7 @@
 
 #include "compiler/request.h"
 #include "parser/customizer/parameter_set.h"
+#include "serve/run/names.h"
 
 namespace lamina::studio {
 
@@ -43,33 +44,16 @@ struct Choice {
 // Throws ChoiceError.
 Choice read_choice(std::string_view json);
 
-// What the page may name: nothing else of a choice reaches the file system.
-struct Names {
-  std::vector<std::string> designs;
-  std::vector<std::string> printers;
-  std::vector<std::string> materials;
-  std::vector<std::string> metals;
-  std::vector<std::string> formats;  // extensions
-};
-
-// The request with lamina's own names of its printer, material and metal, where
-// they are not profiles. Throws FileError where there are none such.
-compiler::Request with_known_names(compiler::Request request,
-                                   const FileAccess& access);
-
 // The job that a request asks for.
 JobChoice job_of(const compiler::Request& request);
-
-// The names that lamina knows, and those that `request` has: profiles, too.
-Names known_names(const compiler::Request& request,
-                  std::vector<std::string> designs);
 
 // The request that the choice makes of the studio's own. The path of the design
 // is that of `base`.
 //
-// throws  ChoiceError for what is not among the names, compiler::RequestError
+// throws  NameError for what is not among the names, compiler::RequestError
 //         where numbers are beyond their limits
 compiler::Request request_of(const Choice& choice,
-                             const compiler::Request& base, const Names& names);
+                             const compiler::Request& base,
+                             const serve::Names& names);
 
 }  // namespace lamina::studio

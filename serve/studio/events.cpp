@@ -11,7 +11,7 @@
 #include "base/paths.h"
 #include "base/version.h"
 #include "compiler/tasks/viewer_options.h"
-#include "parser/customizer/customizer.h"
+#include "serve/run/messages.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/machine/estimate.h"
 
@@ -19,22 +19,10 @@ namespace lamina::studio {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using serve::text_of;
 
 Json event(const char* kind, std::uint64_t number) {
   return {{"kind", kind}, {"number", number}};
-}
-
-// The parameters as `-o x.param` writes them, with their widgets.
-Json parameters_of(const ast::Program& program) {
-  Json file = Json::parse(parameters_json(program, ""));
-  Json parameters = Json::array();
-  if (file.contains("parameters")) parameters = std::move(file["parameters"]);
-  const std::map<std::string, std::string> widgets = widgets_of(program);
-  for (Json& parameter : parameters) {
-    const auto widget = widgets.find(parameter["name"].get<std::string>());
-    if (widget != widgets.end()) parameter["widget"] = widget->second;
-  }
-  return parameters;
 }
 
 // The sets of the file beside the design.
@@ -56,37 +44,6 @@ Json sets_beside(const std::string& path, const FileAccess& access,
     diagnostics.own_warning({}, error.diagnostic().message);
   }
   return sets;
-}
-
-const char* name_of(Severity severity) {
-  switch (severity) {
-    case Severity::kError:
-      return "error";
-    case Severity::kWarning:
-      return "warning";
-    case Severity::kDeprecated:
-      return "deprecated";
-    case Severity::kEcho:
-      return "echo";
-    case Severity::kPlain:
-      break;
-  }
-  return "note";
-}
-
-Json message_json(const Diagnostic& message, std::string text,
-                  const std::string& folder) {
-  Json json = {{"severity", name_of(message.severity)},
-               {"message", message.message},
-               {"text", std::move(text)}};
-  if (message.range.is_written()) {
-    const Source& source = *message.range.source;
-    const LineColumn place = source.line_column(message.range.begin);
-    json["file"] = relative_path(absolute_path(source.path()), folder);
-    json["line"] = place.line;
-    json["column"] = place.column;
-  }
-  return json;
 }
 
 // What a format is, for those who choose one.
@@ -113,10 +70,6 @@ std::string title_of_format(const std::string& extension) {
 
 }  // namespace
 
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string sets_file(const std::string& path) {
   return std::filesystem::path(path).replace_extension(".json");
 }
@@ -124,7 +77,7 @@ std::string sets_file(const std::string& path) {
 Form form_of(const ast::Program& program, const std::string& path,
              const FileAccess& access, Diagnostics& diagnostics) {
   Form form;
-  form.parameters = text_of(parameters_of(program));
+  form.parameters = text_of(serve::parameters_of(program));
   form.sets = text_of(sets_beside(path, access, diagnostics));
   form.key = digest(form.parameters + form.sets);
   return form;
@@ -134,25 +87,6 @@ std::string form_event(std::uint64_t number, const Form& form) {
   return fmt::format(
       R"({{"kind":"form","number":{},"key":"{}","parameters":{},"sets":{}}})",
       number, form.key, form.parameters, form.sets);
-}
-
-std::string messages_json(const std::vector<Diagnostic>& messages,
-                          const std::string& folder) {
-  // A message that comes again is shown once.
-  Json list = Json::array();
-  std::map<std::string, std::size_t> known;
-  for (const Diagnostic& message : messages) {
-    std::string text = caret_text(message);
-    if (text.empty()) continue;
-    const auto [at, is_new] = known.try_emplace(text, list.size());
-    if (is_new) {
-      list.push_back(message_json(message, std::move(text), folder));
-    } else {
-      Json& count = list[at->second]["count"];
-      count = count.is_null() ? 2 : count.get<int>() + 1;
-    }
-  }
-  return text_of(list);
 }
 
 std::string messages_event(std::uint64_t number, const std::string& messages) {
@@ -186,7 +120,7 @@ std::string report_event(std::uint64_t number,
   return text_of(json);
 }
 
-std::string hello_event(const std::string& client, const Names& names,
+std::string hello_event(const std::string& client, const serve::Names& names,
                         const std::string& design, const JobChoice& job) {
   Json formats = Json::array();
   for (const std::string& extension : names.formats) {

@@ -14,10 +14,6 @@
 
 namespace lamina::studio {
 
-// In one line. Bytes that are not UTF-8 are replaced: names of files and
-// messages can hold any.
-std::string text_of(const nlohmann::ordered_json& json);
-
 // The parameters of a design and the sets beside it, as a page shows them.
 struct Form {
   std::string key;         // equal forms have equal keys
@@ -36,10 +32,7 @@ Form form_of(const ast::Program& program, const std::string& path,
 
 std::string form_event(std::uint64_t number, const Form& form);
 
-// All messages, the list of a page: with their place, and as a terminal shows
-// them. Files are named from `folder`.
-std::string messages_json(const std::vector<Diagnostic>& messages,
-                          const std::string& folder);
+// messages  of serve::messages_json()
 std::string messages_event(std::uint64_t number, const std::string& messages);
 
 // What the print weighs, in each metal that lamina knows, and what it takes.
@@ -47,7 +40,7 @@ std::string report_event(std::uint64_t number,
                          const compiler::Compilation& compilation,
                          const slicer::Inspection& found);
 
-std::string hello_event(const std::string& client, const Names& names,
+std::string hello_event(const std::string& client, const serve::Names& names,
                         const std::string& design, const JobChoice& job);
 
 // The member "name" of a run's answer, and the page's answer to POST /output.

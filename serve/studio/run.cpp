@@ -19,12 +19,16 @@
 #include "compiler/look_at.h"
 #include "compiler/stage_text.h"
 #include "compiler/tasks/viewer_options.h"
-#include "serve/studio/frames.h"
+#include "serve/run/frames.h"
+#include "serve/run/messages.h"
 #include "serve/studio/source_text.h"
 #include "slicer/picture/viewer_part.h"
 
 namespace lamina::studio {
 namespace {
+
+using serve::FrameKind;
+using serve::text_of;
 
 constexpr double kStep = 1e-3;  // of coordinates on the wire [mm]
 
@@ -50,8 +54,9 @@ bool run_caught(compiler::Compilation& c, const std::function<bool()>& work) {
   return false;
 }
 
-std::string folder_of_design(const compiler::Compilation& c) {
-  return folder_of(c.request.design.path);
+std::string messages_of(const compiler::Compilation& c) {
+  return text_of(serve::messages_json(c.diagnostics.all(),
+                                      folder_of(c.request.design.path)));
 }
 
 std::string title_of(const compiler::Compilation& c) {
@@ -60,7 +65,7 @@ std::string title_of(const compiler::Compilation& c) {
 
 // Ends the run where nobody reads: a later choice has come.
 void send_frame(int output, FrameKind kind, std::string_view bytes) {
-  if (!write_frame(output, kind, bytes)) ::_exit(0);
+  if (!serve::write_frame(output, kind, bytes)) ::_exit(0);
 }
 
 void send_answer(int output, unsigned status, const std::string& json) {
@@ -69,10 +74,7 @@ void send_answer(int output, unsigned status, const std::string& json) {
 
 // Answers that the messages say why nothing could be made.
 void send_messages(const compiler::Compilation& c, int output) {
-  send_answer(
-      output, 422,
-      fmt::format(R"({{"messages":{}}})",
-                  messages_json(c.diagnostics.all(), folder_of_design(c))));
+  send_answer(output, 422, fmt::format(R"({{"messages":{}}})", messages_of(c)));
 }
 
 class ShownChoice {
@@ -182,8 +184,7 @@ class ShownChoice {
 
   // All of them so far, where they are others than were sent.
   void send_messages() {
-    std::string messages =
-        messages_json(c_.diagnostics.all(), folder_of_design(c_));
+    std::string messages = messages_of(c_);
     if (messages == sent_messages_) return;
     send(messages_event(choice_.number, messages));
     sent_messages_ = std::move(messages);

@@ -8,12 +8,14 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/random.h>
 #include <unistd.h>
 
 #include "base/paths.h"
 #include "base/text.h"
 #include "compiler/validate.h"
+#include "serve/run/messages.h"
 #include "serve/studio/events.h"
 #include "serve/studio/page.h"
 
@@ -22,6 +24,10 @@ namespace {
 
 using http::Request;
 using http::Response;
+using serve::DesignProcess;
+using serve::FileWatcher;
+using serve::FrameKind;
+using serve::FrameReader;
 
 constexpr std::size_t kMostClients = 16;
 constexpr std::size_t kMostFiles = 16;  // that can be fetched
@@ -88,7 +94,7 @@ Studio::Studio(StudioOptions options, http::Server& server,
       server_(server),
       temporary_files_(temporary_files),
       say_(std::move(say)),
-      names_(known_names(options_.request, options_.designs)),
+      names_(serve::known_names(options_.request, options_.designs)),
       token_(random_digits()) {
   if (options_.secret.empty()) options_.secret = random_digits();
   server_.on_readable(watcher_.descriptor(), [this] { look_at_files(); });
@@ -220,19 +226,22 @@ void Studio::answer_post(const Request& request, const Reply& reply) {
   if (!is_source && choice.format.empty()) {
     return reply->send(text(400, "'format' is missing."));
   }
-  make(*client->second, choice, request.body, is_source, reply);
+  make(*client->second, choice, request.body,
+       is_source ? Task::kSource : Task::kWrite, reply);
 }
 
 DesignProcess& Studio::process_for(Client& client, const std::string& design) {
   if (client.process && client.design == design) return *client.process;
-  DesignProcess::Options options{.request = options_.request,
-                                 .names = names_,
-                                 .temporary_files = temporary_files_,
-                                 .evaluation_stack = options_.evaluation_stack,
-                                 .most_seconds = options_.most_seconds};
-  options.request.design.path = options_.folder + design;
+  compiler::Request request = options_.request;
+  request.design.path = options_.folder + design;
+  ChoiceWork work(request, names_);
   client.design = design;
-  client.process = std::make_unique<DesignProcess>(options);
+  client.process = std::make_unique<DesignProcess>(
+      DesignProcess::Options{.request = std::move(request),
+                             .work = work,
+                             .temporary_files = temporary_files_,
+                             .evaluation_stack = options_.evaluation_stack,
+                             .most_seconds = options_.most_seconds});
   return *client.process;
 }
 
@@ -240,39 +249,40 @@ void Studio::change(Client& client, const Choice& choice,
                     const std::string& body, const Reply& reply) {
   end_shown(client);
   client.begin = FileWatcher::now();
-  client.shown = process_for(client, choice.design).start(Lane::kShown, body);
-  if (!client.shown) {
+  client.shown = process_for(client, choice.design)
+                     .start({static_cast<char>(Task::kShow), body});
+  if (!client.shown.output) {
     client.process.reset();
     return reply->send(text(503, "The system grants no process."));
   }
   client.number = choice.number;
   reply->send(text(202, ""));
-  server_.on_readable(client.shown.descriptor(),
+  server_.on_readable(client.shown.output.descriptor(),
                       [this, &client] { read_shown(client); });
 }
 
 void Studio::make(Client& client, const Choice& choice, const std::string& body,
-                  bool is_source, const Reply& reply) {
+                  Task task, const Reply& reply) {
   end_made(client, kGivenUp);
   DesignProcess& process = process_for(client, choice.design);
-  if (!is_source) {
+  if (task == Task::kWrite) {
     client.file = OpenFile(temporary_files_.open_nameless());
     if (!client.file) {
       return reply->send(text(503, "There is no room for the file."));
     }
   }
   client.made =
-      process.start(Lane::kFile, body, is_source, client.file.descriptor());
-  if (!client.made) {
+      process.start({static_cast<char>(task), body}, client.file.descriptor());
+  if (!client.made.output) {
     return reply->send(text(503, "The system grants no process."));
   }
   client.waiting = reply;
-  server_.on_readable(client.made.descriptor(),
+  server_.on_readable(client.made.output.descriptor(),
                       [this, &client] { read_made(client); });
 }
 
 void Studio::read_shown(Client& client) {
-  const std::optional<std::string> bytes = read_some(client.shown);
+  const std::optional<std::string> bytes = read_some(client.shown.output);
   if (!bytes) return;
   if (bytes->empty()) {
     end_shown(client);
@@ -293,12 +303,13 @@ void Studio::say_lost(Client& client) {
   const Diagnostic why{Severity::kError,
                        {},
                        "the process of the design was ended by the system"};
-  send(client, messages_event(number, messages_json({why}, "")));
+  send(client,
+       messages_event(number, serve::text_of(serve::messages_json({why}, ""))));
   send(client, end_event(number, false, -1, 0));
 }
 
 void Studio::read_made(Client& client) {
-  const std::optional<std::string> bytes = read_some(client.made);
+  const std::optional<std::string> bytes = read_some(client.made.output);
   if (!bytes) return;
   std::optional<std::string> answer;
   client.made_frames.add(*bytes, [&](FrameKind kind, std::string frame) {
@@ -329,17 +340,20 @@ void Studio::finish_made(Client& client, std::string answer) {
 }
 
 void Studio::end_shown(Client& client) {
-  if (client.shown) server_.forget(client.shown.descriptor());
-  client.shown = OpenFile();
+  if (client.shown.output) {
+    server_.forget(client.shown.output.descriptor());
+    if (client.process) client.process->end(client.shown.number);
+  }
+  client.shown = {};
   client.frames = FrameReader();
 }
 
 void Studio::end_made(Client& client, const char* why) {
-  if (client.made) {
-    server_.forget(client.made.descriptor());
-    if (client.process) client.process->end(Lane::kFile);
+  if (client.made.output) {
+    server_.forget(client.made.output.descriptor());
+    if (client.process) client.process->end(client.made.number);
   }
-  client.made = OpenFile();
+  client.made = {};
   client.made_frames = FrameReader();
   client.file = OpenFile();
   if (const Reply reply = std::exchange(client.waiting, nullptr)) {

@@ -20,10 +20,12 @@
 #include "base/file/temporary_files.h"
 #include "compiler/request.h"
 #include "serve/http/server.h"
+#include "serve/run/design_process.h"
+#include "serve/run/file_watcher.h"
+#include "serve/run/frames.h"
+#include "serve/run/names.h"
 #include "serve/studio/choice.h"
-#include "serve/studio/design_process.h"
-#include "serve/studio/file_watcher.h"
-#include "serve/studio/frames.h"
+#include "serve/studio/choice_work.h"
 
 namespace lamina::studio {
 
@@ -64,18 +66,19 @@ class Studio {
   struct Client {
     std::string name;
     Reply events;
-    std::string design;                      // that `process` has read
-    std::unique_ptr<DesignProcess> process;  // null: none has been needed
-    OpenFile shown;                          // pipe of the run that is shown
+    std::string design;  // that `process` has read
+    // Null: none has been needed.
+    std::unique_ptr<serve::DesignProcess> process;
+    serve::DesignProcess::Run shown;  // the run that is shown
     std::uint64_t number =
         0;  // of the choice whose last event is to come, or 0
-    FrameReader frames;
+    serve::FrameReader frames;
     std::set<std::string> files;            // that the design depends on
     std::filesystem::file_time_type begin;  // of the run
     // An output or a source that is being made; null: none is.
     Reply waiting;
-    OpenFile made;  // pipe of its run
-    FrameReader made_frames;
+    serve::DesignProcess::Run made;
+    serve::FrameReader made_frames;
     OpenFile file;  // the output's bytes
   };
 
@@ -94,11 +97,11 @@ class Studio {
   void change(Client& client, const Choice& choice, const std::string& body,
               const Reply& reply);
   void make(Client& client, const Choice& choice, const std::string& body,
-            bool is_source, const Reply& reply);
+            Task task, const Reply& reply);
 
   // The client's process for the design. Throws Error where the system grants
   // none.
-  DesignProcess& process_for(Client& client, const std::string& design);
+  serve::DesignProcess& process_for(Client& client, const std::string& design);
   void read_shown(Client& client);
   void read_made(Client& client);
   void finish_made(Client& client, std::string answer);
@@ -117,13 +120,13 @@ class Studio {
   http::Server& server_;
   TemporaryFiles& temporary_files_;
   std::function<void(const std::string&)> say_;
-  Names names_;
+  serve::Names names_;
   std::string token_;
   std::uint16_t port_ = 0;
   std::map<std::string, std::unique_ptr<Client>, std::less<>> clients_;
   std::map<std::uint64_t, MadeFile> made_files_;
   std::uint64_t last_file_ = 0;
-  FileWatcher watcher_;
+  serve::FileWatcher watcher_;
   bool waits_for_quiet_ = false;
 };
 

@@ -52,7 +52,7 @@ const std::map<std::string, std::string> kMayTouch = {
     {"cli/process/landlock.cpp", "names folders to the kernel"},
     {"cli/process/openscad.cpp", "runs openscad; refused with --root"},
     {"cli/commands/watch.cpp", "--watch; refused with --root"},
-    {"serve/studio/file_watcher.cpp", "the same, and the studio's"},
+    {"serve/run/file_watcher.cpp", "the same, and the studio's"},
     {"cli/commands/studio.cpp",
      "its cookie, and a browser; refused with --root"},
     {"cli/process/streams.cpp", "stands in for streams that are closed"},

@@ -61,7 +61,7 @@ TEST(Choice, SaysWhatIsWrong) {
 }
 
 TEST(Choice, NamesOnlyWhatIsListed) {
-  const Names names = known_names({}, {"ring.scad"});
+  const serve::Names names = serve::known_names({}, {"ring.scad"});
   const auto with = [](const std::string& member, const std::string& value) {
     return read_choice(R"({"settings": {"layer": 0.05, ")" + member +
                        R"(": ")" + value + R"("}})");
@@ -69,11 +69,11 @@ TEST(Choice, NamesOnlyWhatIsListed) {
   EXPECT_NO_THROW(request_of(with("metal", "brass"), {}, names));
   for (const char* member : {"printer", "material", "metal"}) {
     EXPECT_THROW(request_of(with(member, "/etc/passwd"), {}, names),
-                 ChoiceError);
+                 serve::NameError);
   }
   Choice choice = with("printer", "");
   choice.format = "png";  // a folder
-  EXPECT_THROW(request_of(choice, {}, names), ChoiceError);
+  EXPECT_THROW(request_of(choice, {}, names), serve::NameError);
   choice.format = "sl1";
   EXPECT_EQ(request_of(choice, {}, names).output.format,
             slicer::OutputFormat::kSl1);
@@ -83,15 +83,15 @@ TEST(Choice, KnowsPartsOfNames) {
   compiler::Request request;
   request.output.printer = "mars 3";
   request.output.metal = "sterling";
-  const JobChoice job = job_of(with_known_names(request, kAllFiles));
+  const JobChoice job = job_of(serve::with_known_names(request, kAllFiles));
   EXPECT_EQ(job.printer, "elegoo-mars-3");
   EXPECT_EQ(job.metal, "sterling-silver");
   request.output.metal = "unobtainium";
-  EXPECT_THROW(with_known_names(request, kAllFiles), FileError);
+  EXPECT_THROW(serve::with_known_names(request, kAllFiles), FileError);
 }
 
 TEST(Choice, KeepsToTheLimitsOfOptions) {
-  const Names names = known_names({}, {"ring.scad"});
+  const serve::Names names = serve::known_names({}, {"ring.scad"});
   const auto layer = [&](const char* thickness) {
     return request_of(read_choice(std::string(R"({"settings": {"layer": )") +
                                   thickness + "}}"),

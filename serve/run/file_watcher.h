@@ -13,7 +13,7 @@
 
 #include "base/file/open_file.h"
 
-namespace lamina::studio {
+namespace lamina::serve {
 
 class FileWatcher {
  public:
@@ -59,4 +59,4 @@ class FileWatcher {
   std::map<int, std::map<std::string, std::string>> names_;
 };
 
-}  // namespace lamina::studio
+}  // namespace lamina::serve

@@ -1,4 +1,4 @@
-#include "serve/studio/file_watcher.h"
+#include "serve/run/file_watcher.h"
 
 #include <array>
 #include <cerrno>
@@ -15,7 +15,7 @@
 
 #include "base/diagnostic.h"
 
-namespace lamina::studio {
+namespace lamina::serve {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ bool FileWatcher::take_events(int milliseconds) {
   return is_ours;
 }
 
-}  // namespace lamina::studio
+}  // namespace lamina::serve

@@ -1,7 +1,7 @@
 // What a choice comes to: the events of docs/studio.md, from a process that has
 // read the design.
 
-#include "serve/studio/design_process.h"
+#include "serve/studio/choice_work.h"
 
 #include <chrono>
 #include <filesystem>
@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "serve/studio/frames.h"
+#include "serve/run/frames.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -59,16 +59,17 @@ struct Sent {
 
 Sent read_all(const OpenFile& pipe) {
   Sent sent;
-  FrameReader frames;
+  serve::FrameReader frames;
   std::string bytes(1 << 16, '\0');
   while (true) {
     const ssize_t size = ::read(pipe.descriptor(), bytes.data(), bytes.size());
     if (size <= 0) return sent;
     frames.add({bytes.data(), static_cast<std::size_t>(size)},
-               [&](FrameKind kind, const std::string& frame) {
-                 if (kind == FrameKind::kEvent || kind == FrameKind::kLast) {
+               [&](serve::FrameKind kind, const std::string& frame) {
+                 if (kind == serve::FrameKind::kEvent ||
+                     kind == serve::FrameKind::kLast) {
                    sent.events.push_back(Json::parse(frame));
-                 } else if (kind == FrameKind::kFiles) {
+                 } else if (kind == serve::FrameKind::kFiles) {
                    sent.files.push_back(frame);
                  } else {
                    sent.answer = frame;
@@ -84,15 +85,16 @@ class Bench {
                  unsigned most_seconds = 60, const std::string& sets = "") {
     if (!sets.empty()) folder_.write("box.json", sets);
     folder_.write("box.scad", text);
-    DesignProcess::Options options{.request = {},
-                                   .names = known_names({}, {"box.scad"}),
-                                   .temporary_files = files_,
-                                   .evaluation_stack = 1 << 20,
-                                   .most_seconds = most_seconds,
-                                   .reads_anew = reads_anew};
-    options.request.design.path = path();
-    options.request.job.finds_makers = true;
-    process_ = std::make_unique<DesignProcess>(options);
+    compiler::Request request;
+    request.design.path = path();
+    request.job.finds_makers = true;
+    ChoiceWork work(request, serve::known_names({}, {"box.scad"}), reads_anew);
+    process_ = std::make_unique<serve::DesignProcess>(
+        serve::DesignProcess::Options{.request = request,
+                                      .work = work,
+                                      .temporary_files = files_,
+                                      .evaluation_stack = 1 << 20,
+                                      .most_seconds = most_seconds});
   }
 
   static std::string body(int number, const Json& values = Json::object(),
@@ -103,18 +105,21 @@ class Bench {
     return body.dump();
   }
 
-  OpenFile start(const std::string& body) {
-    return process_->start(Lane::kShown, body);
+  OpenFile start(Task task, const std::string& body, int file = -1) {
+    serve::DesignProcess::Run run =
+        process_->start({static_cast<char>(task), body}, file);
+    last_run_ = run.number;
+    return std::move(run.output);
   }
+  OpenFile start(const std::string& body) { return start(Task::kShow, body); }
   Sent show(int number, const Json& values = Json::object(),
             const Json& more = Json::object()) {
     return read_all(start(body(number, values, more)));
   }
   Sent source(const Json& values, const std::string& key = "") {
-    return read_all(
-        process_->start(Lane::kFile, body(1, values, {{"key", key}}), true));
+    return read_all(start(Task::kSource, body(1, values, {{"key", key}})));
   }
-  DesignProcess& process() { return *process_; }
+  void end_last_run() { process_->end(last_run_); }
   std::string path() const { return folder_.path() + "/box.scad"; }
   std::string text() const {
     std::ifstream file(path());
@@ -126,10 +131,11 @@ class Bench {
  private:
   TemporaryFolder folder_;
   TemporaryFiles files_;
-  std::unique_ptr<DesignProcess> process_;
+  std::uint64_t last_run_ = 0;
+  std::unique_ptr<serve::DesignProcess> process_;
 };
 
-TEST(DesignProcess, SendsAllOfAChoiceInOrder) {
+TEST(ChoiceWork, SendsAllOfAChoiceInOrder) {
   Bench bench(kBox);
   const Sent sent = bench.show(17, {{"length", "10"}}, {{"z", 1.23}});
   EXPECT_EQ(sent.kinds(), "form messages layer part report end ");
@@ -144,7 +150,7 @@ TEST(DesignProcess, SendsAllOfAChoiceInOrder) {
   EXPECT_EQ(sent.last("end")["isWell"], true);
 }
 
-TEST(DesignProcess, SendsTheFormToThoseThatLackIt) {
+TEST(ChoiceWork, SendsTheFormToThoseThatLackIt) {
   Bench bench(kBox);
   const Json form = bench.show(1).last("form");
   const Json& parameters = form["parameters"];
@@ -159,7 +165,7 @@ TEST(DesignProcess, SendsTheFormToThoseThatLackIt) {
             "messages layer part report end ");
 }
 
-TEST(DesignProcess, SendsTheSetsBesideTheDesign) {
+TEST(ChoiceWork, SendsTheSetsBesideTheDesign) {
   Bench bench(kBox, false, 60, R"({"parameterSets":
     {"long": {"length": "20"}}, "fileFormatVersion": "1"})");
   const Json sets = bench.show(1).last("form")["sets"];
@@ -167,7 +173,7 @@ TEST(DesignProcess, SendsTheSetsBesideTheDesign) {
                                    {"length": "20"}}])"));
 }
 
-TEST(DesignProcess, SendsTheSameWhetherItReadsTheDesignAnewOrNot) {
+TEST(ChoiceWork, SendsTheSameWhetherItReadsTheDesignAnewOrNot) {
   Bench kept(kBox);
   Bench anew(kBox, true);
   for (const char* length : {"10", "3", "10"}) {
@@ -178,7 +184,7 @@ TEST(DesignProcess, SendsTheSameWhetherItReadsTheDesignAnewOrNot) {
   }
 }
 
-TEST(DesignProcess, SaysWhereATextIsWrong) {
+TEST(ChoiceWork, SaysWhereATextIsWrong) {
   Bench bench("cube(1);\nsphere(;\n");
   const Sent sent = bench.show(1);
   const Json messages = sent.last("messages")["messages"];
@@ -191,7 +197,7 @@ TEST(DesignProcess, SaysWhereATextIsWrong) {
   EXPECT_NE(sent.files.back().find("box.scad"), std::string::npos);
 }
 
-TEST(DesignProcess, SaysWhyThereIsNothing) {
+TEST(ChoiceWork, SaysWhyThereIsNothing) {
   Bench bench("a = 1;\nif (a > 1) cube(1);\n");
   const Sent sent = bench.show(1);
   EXPECT_EQ(sent.last("messages")["messages"][0]["message"],
@@ -206,9 +212,10 @@ constexpr const char* kEndless =
     "n = 1;\na = [for (i = [0:n], j = [0:n], k = [0:n]) if (i < 0) 0];\n"
     "cube(len(a) + 1);\n";
 
-TEST(DesignProcess, EndsARunForALaterOne) {
+TEST(ChoiceWork, EndsARunWhileAnotherGoesOn) {
   Bench bench(kEndless);
   const OpenFile endless = bench.start(Bench::body(1, {{"n", "9000"}}));
+  bench.end_last_run();
   const auto begin = std::chrono::steady_clock::now();
   const Sent next = bench.show(2);
   EXPECT_EQ(next.last("end")["isWell"], true);
@@ -216,7 +223,7 @@ TEST(DesignProcess, EndsARunForALaterOne) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
-TEST(DesignProcess, SaysThatARunTakesTooLong) {
+TEST(ChoiceWork, SaysThatARunTakesTooLong) {
   Bench bench(kEndless, false, 1);
   const Sent sent = bench.show(1, {{"n", "9000"}});
   EXPECT_EQ(sent.last("messages")["messages"][0]["message"],
@@ -225,13 +232,13 @@ TEST(DesignProcess, SaysThatARunTakesTooLong) {
   EXPECT_EQ(bench.show(2).last("end")["isWell"], true);
 }
 
-TEST(DesignProcess, WritesTheBytesOfTheProgram) {
+TEST(ChoiceWork, WritesTheBytesOfTheProgram) {
   Bench bench(kBox);
   for (const std::string format : {"slc", "cli", "svg", "layers.json", "csg"}) {
     const OpenFile file(bench.files().open_nameless());
-    const Sent sent = read_all(bench.process().start(
-        Lane::kFile, Bench::body(1, {{"length", "7"}}, {{"format", format}}),
-        false, file.descriptor()));
+    const Sent sent = read_all(bench.start(
+        Task::kWrite, Bench::body(1, {{"length", "7"}}, {{"format", format}}),
+        file.descriptor()));
     EXPECT_EQ(sent.answer, R"(200 {"name":"box.)" + format + R"("})");
     const std::string output = bench.folder().path() + "/x." + format;
     support::run_process({LAMINA_PROGRAM, "box.scad", "-D", "length=7",
@@ -244,7 +251,7 @@ TEST(DesignProcess, WritesTheBytesOfTheProgram) {
   }
 }
 
-TEST(DesignProcess, WritesValuesIntoTheSource) {
+TEST(ChoiceWork, WritesValuesIntoTheSource) {
   Bench bench(kBox);
   const Json values = {{"length", "7.25"}, {"name", "say \"b\""}};
   const Sent shown = bench.source(values);

@@ -1,5 +1,5 @@
 #pragma once
-// What a run sends to the studio's server through a pipe: frames of a kind and
+// What a run sends to the server through a pipe: frames of a kind and
 // some bytes.
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace lamina::studio {
+namespace lamina::serve {
 
 enum class FrameKind : char {
   kEvent = 'e',   // JSON for the page, as docs/studio.md has it
@@ -31,4 +31,4 @@ class FrameReader {
   std::string bytes_;
 };
 
-}  // namespace lamina::studio
+}  // namespace lamina::serve

@@ -1,11 +1,11 @@
-#include "serve/studio/frames.h"
+#include "serve/run/frames.h"
 
 #include <array>
 #include <cstring>
 
 #include "base/file/open_file.h"
 
-namespace lamina::studio {
+namespace lamina::serve {
 namespace {
 
 // A kind, and the number of bytes.
@@ -36,4 +36,4 @@ void FrameReader::add(std::string_view bytes,
   bytes_.erase(0, begin);
 }
 
-}  // namespace lamina::studio
+}  // namespace lamina::serve

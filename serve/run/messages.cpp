@@ -1,0 +1,85 @@
+#include "serve/run/messages.h"
+
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "base/paths.h"
+#include "parser/customizer/customizer.h"
+
+namespace lamina::serve {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(Severity severity) {
+  switch (severity) {
+    case Severity::kError:
+      return "error";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kDeprecated:
+      return "deprecated";
+    case Severity::kEcho:
+      return "echo";
+    case Severity::kPlain:
+      break;
+  }
+  return "note";
+}
+
+Json message_json(const Diagnostic& message, std::string text,
+                  const std::string& folder) {
+  Json json = {{"severity", name_of(message.severity)},
+               {"message", message.message},
+               {"text", std::move(text)}};
+  if (message.range.is_written()) {
+    const Source& source = *message.range.source;
+    const LineColumn place = source.line_column(message.range.begin);
+    json["file"] = relative_path(absolute_path(source.path()), folder);
+    json["line"] = place.line;
+    json["column"] = place.column;
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json messages_json(const std::vector<Diagnostic>& messages,
+                   const std::string& folder) {
+  // A message that comes again is shown once.
+  Json list = Json::array();
+  std::map<std::string, std::size_t> known;
+  for (const Diagnostic& message : messages) {
+    std::string text = caret_text(message);
+    if (text.empty()) continue;
+    const auto [at, is_new] = known.try_emplace(text, list.size());
+    if (is_new) {
+      list.push_back(message_json(message, std::move(text), folder));
+    } else {
+      Json& count = list[at->second]["count"];
+      count = count.is_null() ? 2 : count.get<int>() + 1;
+    }
+  }
+  return list;
+}
+
+Json parameters_of(const ast::Program& program) {
+  Json file = Json::parse(parameters_json(program, ""));
+  Json parameters = Json::array();
+  if (file.contains("parameters")) parameters = std::move(file["parameters"]);
+  const std::map<std::string, std::string> widgets = widgets_of(program);
+  for (Json& parameter : parameters) {
+    const auto widget = widgets.find(parameter["name"].get<std::string>());
+    if (widget != widgets.end()) parameter["widget"] = widget->second;
+  }
+  return parameters;
+}
+
+}  // namespace lamina::serve
