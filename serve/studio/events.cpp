@@ -10,6 +10,7 @@
 #include "base/fingerprint.h"
 #include "base/paths.h"
 #include "base/version.h"
+#include "compiler/tasks/quote.h"
 #include "compiler/tasks/viewer_options.h"
 #include "serve/run/messages.h"
 #include "slicer/formats/output_format.h"
@@ -101,13 +102,6 @@ std::string report_event(std::uint64_t number,
       compiler::estimate_of(compilation, found);
   const slicer::Machine& machine = compilation.report.machine;
   const double cast = slicer::part_volume(found.volume, found.supports);
-  Json metals = Json::array();
-  for (const slicer::Material& material : slicer::known_materials()) {
-    if (!material.is_metal()) continue;
-    metals.push_back({{"name", material.name},
-                      {"title", material.title},
-                      {"grams", material.weight(cast)}});
-  }
   const Vec3 size = found.box.size();
   Json json = event("report", number);
   json["size"] = {size.x, size.y, size.z};
@@ -116,7 +110,7 @@ std::string report_event(std::uint64_t number,
   json["estimate"] = slicer::estimate_text(machine, estimate);
   json["seconds"] = estimate.seconds;
   json["price"] = estimate.price + estimate.metal_price;
-  json["metals"] = std::move(metals);
+  json["metals"] = compiler::weights_json(cast);
   return text_of(json);
 }
 
