@@ -68,4 +68,16 @@ std::optional<OutputDigest> digest_of_file(const OpenFile& file) {
   return is_whole ? std::optional(std::move(made)) : std::nullopt;
 }
 
+bool has_changed_since(std::chrono::steady_clock::time_point begin,
+                       const std::string& path, const FileAccess& access) {
+  const auto status = access.look_at(path);
+  if (!status) return false;
+  const auto ago = std::chrono::steady_clock::now() - begin;
+  const auto at = std::chrono::system_clock::now() - ago;
+  const std::chrono::nanoseconds changed =
+      std::chrono::seconds(status->st_ctim.tv_sec) +
+      std::chrono::nanoseconds(status->st_ctim.tv_nsec);
+  return changed > at.time_since_epoch();
+}
+
 }  // namespace lamina

@@ -2,6 +2,7 @@
 // What stands where an output goes: whether an earlier run has made it, and
 // whether it still is what that run made.
 
+#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -27,5 +28,11 @@ std::optional<OutputDigest> digest_of_output(
 // Digests all bytes of a file, block by block. No value where it cannot be read
 // or changes meanwhile.
 std::optional<OutputDigest> digest_of_file(const OpenFile& file);
+
+// Whether the file may be another one than somebody has read who began then.
+// Its time of change (ctime) is the machine's own: that of a file that is moved
+// here is new, too.
+bool has_changed_since(std::chrono::steady_clock::time_point begin,
+                       const std::string& path, const FileAccess& access);
 
 }  // namespace lamina

@@ -288,7 +288,7 @@ std::string Ledger::read_key(const compiler::Compilation& compilation) {
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   Json files = Json::array();
   for (const std::string& path : paths) {
-    if (has_changed_since(compilation.begin, path)) return kChangedMeanwhile;
+    if (has_changed_since(compilation.begin, path, access_)) return kChangedMeanwhile;
     files.push_back({json_of_path(path), files_.digest_of(path)});
   }
   std::string key = digest(line_of(files));
@@ -297,21 +297,6 @@ std::string Ledger::read_key(const compiler::Compilation& compilation) {
     append(line_of({{"read", key}, {"files", files}}));
   }
   return key;
-}
-
-// Whether the file may be another one than the piece has read. Its time of
-// change (ctime) is the machine's own: that of a file that is moved here is
-// new, too.
-bool Ledger::has_changed_since(std::chrono::steady_clock::time_point begin,
-                               const std::string& path) const {
-  const auto status = access_.look_at(path);
-  if (!status) return false;
-  const auto ago = std::chrono::steady_clock::now() - begin;
-  const auto at = std::chrono::system_clock::now() - ago;
-  const std::chrono::nanoseconds changed =
-      std::chrono::seconds(status->st_ctim.tv_sec) +
-      std::chrono::nanoseconds(status->st_ctim.tv_nsec);
-  return changed > at.time_since_epoch();
 }
 
 void Ledger::append(const std::string& line) {

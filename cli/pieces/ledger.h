@@ -151,8 +151,6 @@ class Ledger {
 
  private:
   std::string read_key(const compiler::Compilation& compilation);
-  bool has_changed_since(std::chrono::steady_clock::time_point begin,
-                         const std::string& path) const;
   // With the mutex held.
   void append(const std::string& line);
 

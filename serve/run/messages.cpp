@@ -1,9 +1,12 @@
 #include "serve/run/messages.h"
 
 #include <cstddef>
+#include <exception>
 #include <map>
+#include <new>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/paths.h"
@@ -80,6 +83,22 @@ Json parameters_of(const ast::Program& program) {
     if (widget != widgets.end()) parameter["widget"] = widget->second;
   }
   return parameters;
+}
+
+bool run_caught(compiler::Compilation& c, const std::function<bool()>& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (!compiler::is_among(c.diagnostics, error.diagnostic())) {
+      c.diagnostics.report(error.diagnostic());
+    }
+  } catch (const std::bad_alloc&) {
+    c.diagnostics.error({}, "out of memory");
+  } catch (const std::exception& error) {
+    c.diagnostics.error(
+        {}, fmt::format("internal error, please report: {}", error.what()));
+  }
+  return false;
 }
 
 }  // namespace lamina::serve

@@ -1,12 +1,14 @@
 #pragma once
 // What the compiler says, as JSON for other programs.
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/diagnostic.h"
+#include "compiler/compilation.h"
 #include "parser/ast.h"
 
 namespace lamina::serve {
@@ -23,5 +25,10 @@ nlohmann::ordered_json messages_json(const std::vector<Diagnostic>& messages,
 // The list of a design's parameters as `-o x.param` writes it, each with the
 // word of its widget, if it has one.
 nlohmann::ordered_json parameters_of(const ast::Program& program);
+
+// Does the work of a run and reports what it throws. Returns what the work
+// returns, or false where it throws.
+bool run_caught(compiler::Compilation& compilation,
+                const std::function<bool()>& work);
 
 }  // namespace lamina::serve

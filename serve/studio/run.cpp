@@ -36,24 +36,6 @@ constexpr double kStep = 1e-3;  // of coordinates on the wire [mm]
 // of it holds up as much as two of these (http::Limits::queued_bytes).
 constexpr std::size_t kMostBytes = 16 << 20;
 
-// Does the work and reports what it throws. Returns what the work returns, or
-// false where it throws.
-bool run_caught(compiler::Compilation& c, const std::function<bool()>& work) {
-  try {
-    return work();
-  } catch (const Error& error) {
-    if (!compiler::is_among(c.diagnostics, error.diagnostic())) {
-      c.diagnostics.report(error.diagnostic());
-    }
-  } catch (const std::bad_alloc&) {
-    c.diagnostics.error({}, "out of memory");
-  } catch (const std::exception& error) {
-    c.diagnostics.error(
-        {}, fmt::format("internal error, please report: {}", error.what()));
-  }
-  return false;
-}
-
 std::string messages_of(const compiler::Compilation& c) {
   return text_of(serve::messages_json(c.diagnostics.all(),
                                       folder_of(c.request.design.path)));
@@ -84,7 +66,7 @@ class ShownChoice {
       : c_(c), choice_(choice), form_(form), output_(output) {}
 
   void show() {
-    const bool is_well = run_caught(c_, [&] { return make(); });
+    const bool is_well = serve::run_caught(c_, [&] { return make(); });
     send_files();
     send_messages();
     send_frame(
@@ -219,7 +201,7 @@ void show_choice(compiler::Compilation& compilation, const Choice& choice,
 
 void write_output(compiler::Compilation& c, const Choice& choice, int output) {
   c.request.output.path = "-";
-  if (!run_caught(c, [&] { return compiler::compile(c); })) {
+  if (!serve::run_caught(c, [&] { return compiler::compile(c); })) {
     send_messages(c, output);
     return;
   }
@@ -229,7 +211,7 @@ void write_output(compiler::Compilation& c, const Choice& choice, int output) {
 
 void write_source(compiler::Compilation& c, const Choice& choice, int output) {
   const std::string& path = c.request.design.path;
-  const bool is_done = run_caught(c, [&] {
+  const bool is_done = serve::run_caught(c, [&] {
     if (!c.is_read()) compiler::read_design(c);
     const SourceEdit edit = edit_source(c.design.program, choice.values,
                                         c.design.language, c.diagnostics);
