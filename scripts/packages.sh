@@ -23,7 +23,7 @@ LAMINA_TEST_PACKAGES=(
   libgtest-dev libbenchmark-dev libpolyclipping-dev libcgal-dev
   openscad openscad-testing-data openscad-mcad libgl1-mesa-dri xvfb xauth
   fonts-dejavu-core fonts-hosny-amiri
-  slic3r prusa-slicer lib3mf1 python3 chromium make
+  slic3r prusa-slicer lib3mf1 python3 python3-jsonschema chromium make
   man-db bash-completion zsh fish locales
   nodejs ca-certificates
 )
