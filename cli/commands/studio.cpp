@@ -4,13 +4,12 @@
 #include "serve/studio/studio.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -175,17 +174,14 @@ class StudioCommand : public Command {
   }
 
   // Listens on the port that was asked for, or on the usual one, if it is free.
-  std::uint16_t listen(http::Server& server) const {
-    std::uint16_t port =
-        server.listen(static_cast<std::uint16_t>(port_.value_or(kUsualPort)));
-    const int error = errno;
-    if (port == 0 && !port_) port = server.listen(0);
-    if (port == 0) {
-      throw FileError(fmt::format("can't serve on port {}: {}",
-                                  port_.value_or(kUsualPort),
-                                  std::strerror(error)));
+  OpenFile open_listener() const {
+    const std::string port = std::to_string(port_.value_or(kUsualPort));
+    try {
+      return http::open_listener(http::parse_address(port));
+    } catch (const FileError&) {
+      if (port_) throw;
     }
-    return port;
+    return http::open_listener(http::parse_address("0"));
   }
 
   int serve(const Context& context, Terminal& terminal) {
@@ -194,8 +190,10 @@ class StudioCommand : public Command {
     Diagnostics diagnostics(
         [&](const Diagnostic& message) { terminal.show(message); });
     std::vector<std::string> folders = module_folders();
-    const auto server = http::make_server({}, folders, diagnostics);
-    const std::uint16_t port = listen(*server);
+    const auto server = http::make_server({}, {}, folders, diagnostics);
+    OpenFile listener = open_listener();
+    const std::uint16_t port = http::address_of(listener).port;
+    server->listen(std::move(listener));
     options.secret = kept_secret(port);
     studio::Studio studio(std::move(options), *server, context.temporary_files,
                           [&](const std::string& line) { terminal.say(line); });

@@ -27,7 +27,10 @@
 #include <string>
 #include <utility>
 
+#include <boost/asio/basic_socket_acceptor.hpp>
+#include <boost/asio/generic/stream_protocol.hpp>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/address.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
@@ -39,6 +42,7 @@
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -51,7 +55,9 @@ namespace {
 namespace net = boost::asio;
 namespace bh = boost::beast::http;
 using boost::beast::file_mode;
-using net::ip::tcp;
+// TCP and Unix sockets alike.
+using Stream = net::generic::stream_protocol;
+using Acceptor = net::basic_socket_acceptor<Stream>;
 using Error = boost::system::error_code;
 using std::chrono::milliseconds;
 
@@ -69,6 +75,11 @@ class Hub {
   virtual ~Hub() = default;
   virtual const Limits& limits() const = 0;
   virtual const Rules& rules() const = 0;
+  virtual const Policy& policy() const = 0;
+  // Whether each connection ends with the answer that is under way.
+  virtual bool is_ending() const = 0;
+  // An answer is the server's own.
+  virtual void report_refusal(unsigned status) = 0;
   virtual void handle(const Request& request,
                       std::unique_ptr<Answer> answer) = 0;
   // Makes a call from run(), not from within another.
@@ -96,19 +107,16 @@ Head head_of(const Fields& message, std::string_view bytes) {
   return head;
 }
 
-Response plain(unsigned status, const std::string& text) {
-  Response response;
-  response.status = status;
-  response.body = text + "\n";
-  return response;
-}
-
 bool may_have_body(unsigned status) { return status != 204 && status != 304; }
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Hub& hub, tcp::socket socket)
-      : hub_(&hub), limits_(hub.limits()), wire_(std::move(socket)) {}
+  // host  the IP address at the other end; empty for a Unix socket
+  Connection(Hub& hub, Stream::socket socket, std::string host)
+      : hub_(&hub),
+        limits_(hub.limits()),
+        wire_(std::move(socket)),
+        host_(std::move(host)) {}
 
   void start() {
     arm(limits_.header_time);
@@ -120,8 +128,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void send(Response response) {
     if (!is_open()) return;
     if (!is_sendable(response)) {
-      response = plain(500, "The answer cannot be sent");
+      return send_own({500, "The answer cannot be sent"});
     }
+    if (hub_->is_ending()) keeps_alive_ = false;
     if (!response.file.empty()) return send_file(response);
     const std::size_t size = response.body.size();
     if (is_head_ || !may_have_body(response.status)) {
@@ -135,10 +144,17 @@ class Connection : public std::enable_shared_from_this<Connection> {
     write(std::move(message));
   }
 
+  // An answer of the server's own, not of the handler.
+  void send_own(const Refusal& refusal) {
+    if (!is_open()) return;
+    hub_->report_refusal(refusal.status);
+    send(refusal_response(refusal, hub_->policy()));
+  }
+
   void begin(const Response& response) {
     if (!is_open()) return;
     if (!is_sendable(response)) {
-      return send(plain(500, "The answer cannot be sent"));
+      return send_own({500, "The answer cannot be sent"});
     }
     keeps_alive_ = false;
     auto message = message_of<bh::empty_body>(response);
@@ -191,6 +207,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
     std::exchange(hub_, nullptr)->remove(self);
   }
 
+  // Closes, if no request has begun.
+  void close_if_idle() {
+    if (state_ != State::kHead || !input_.empty()) return;
+    if (!has_input()) close();
+  }
+
   // Closes, as the server goes: makes no call.
   void abandon() {
     closings_.clear();
@@ -213,9 +235,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   // What a connection has while it is open.
   struct Wire {
-    explicit Wire(tcp::socket open)
+    explicit Wire(Stream::socket open)
         : socket(std::move(open)), timer(socket.get_executor()) {}
-    tcp::socket socket;
+    Stream::socket socket;
     net::steady_timer timer;
   };
 
@@ -295,8 +317,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
         head_of(parser_->get(), std::string_view(input_).substr(0, parsed_));
     is_head_ = head.method == "HEAD";
     if (const auto refusal = hub_->rules().judge(head)) return refuse(*refusal);
-    request_ = request_of(head);
+    request_ = request_of(head, host_);
     keeps_alive_ = parser_->keep_alive();
+    is_old_ = head.version == 10;
     body_size_ = parser_->content_length().value_or(0);
     input_.erase(0, parsed_);
     state_ = State::kBody;
@@ -334,18 +357,27 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void watch_peer() {
     if (is_watching_ || !is_open()) return;
     is_watching_ = true;
-    wire_->socket.async_wait(tcp::socket::wait_read,
+    wire_->socket.async_wait(Stream::socket::wait_read,
                              [self = shared_from_this()](const Error& error) {
                                self->is_watching_ = false;
                                if (!error) self->look_at_peer();
                              });
   }
 
-  void look_at_peer() {
-    if (state_ != State::kAnswering && state_ != State::kStreaming) return;
+  // The error is would_block where nothing has come.
+  Error peek() {
     std::array<char, 1> byte{};
     Error error;
-    wire_->socket.receive(net::buffer(byte), tcp::socket::message_peek, error);
+    wire_->socket.receive(net::buffer(byte), Stream::socket::message_peek,
+                          error);
+    return error;
+  }
+
+  bool has_input() { return !peek(); }
+
+  void look_at_peer() {
+    if (state_ != State::kAnswering && state_ != State::kStreaming) return;
+    const Error error = peek();
     if (error == net::error::would_block) return watch_peer();
     // A next request can wait, but not behind a stream.
     if (error || state_ == State::kStreaming) close();
@@ -356,18 +388,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void refuse(const Refusal& refusal) {
     state_ = State::kAnswering;
     keeps_alive_ = false;
-    Response response = plain(refusal.status, refusal.reason);
-    if (refusal.status == 405) {
-      response.headers.emplace_back("Allow", "GET, HEAD, POST");
-    }
-    send(std::move(response));
+    send_own(refusal);
   }
 
   void send_file(const Response& response) {
     bh::file_body::value_type file;
     Error error;
     file.open(response.file.c_str(), file_mode::scan, error);
-    if (error) return send(plain(404, "The file is gone"));
+    if (error) return send_own({404, "The file is gone"});
     const std::uint64_t size = file.size();
     if (is_head_) {
       auto message = message_of<bh::empty_body>(response);
@@ -393,8 +421,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
     message.erase(bh::field::content_length);
     message.erase(bh::field::connection);
     message.keep_alive(keeps_alive_);
+    if (keeps_alive_ && is_old_) {
+      message.set(bh::field::connection, "keep-alive");
+    }
     message.set(bh::field::content_type, response.type);
-    for (const auto& [name, value] : headers_of_all()) message.set(name, value);
+    // What is not modified keeps its type.
+    if (response.status == 304) message.erase(bh::field::content_type);
+    for (const auto& [name, value] : headers_of_all()) {
+      if (message.find(name) == message.end()) message.set(name, value);
+    }
     return message;
   }
 
@@ -421,7 +456,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void finish_write() {
     disarm();
     if (state_ == State::kStreaming) return flush();
-    if (!keeps_alive_) return linger();
+    if (!keeps_alive_ || hub_->is_ending()) return linger();
     is_idle_ = true;
     arm(limits_.idle_time);
     take_request();
@@ -459,7 +494,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void linger() {
     state_ = State::kLingering;
     Error ignored;
-    wire_->socket.shutdown(tcp::socket::shutdown_send, ignored);
+    wire_->socket.shutdown(Stream::socket::shutdown_send, ignored);
     arm(kLingerTime);
     drop_input();
   }
@@ -477,6 +512,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Hub* hub_;  // null once it is closed
   const Limits limits_;
   std::optional<Wire> wire_;  // none once it is closed
+  const std::string host_;
   State state_ = State::kHead;
   std::uint64_t deadline_ = 0;  // number of the timer's wait that counts
   bool is_idle_ = false;        // between two requests
@@ -493,6 +529,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   // The answer.
   bool is_head_ = false;  // to HEAD
   bool keeps_alive_ = false;
+  bool is_old_ = false;  // HTTP/1.0, which ends connections
   std::deque<std::string> queue_;
   std::size_t queued_ = 0;   // bytes
   std::size_t written_ = 0;  // of the first
@@ -507,7 +544,8 @@ class ConnectionAnswer final : public Answer {
       : connection_(std::move(connection)) {}
   ~ConnectionAnswer() override {
     if (has_begun_) guard([&] { connection_->end_stream(); });
-    if (!is_answered_) send(plain(500, "There is no answer"));
+    if (is_answered_) return;
+    guard([&] { connection_->send_own({500, "There is no answer"}); });
   }
   ConnectionAnswer(const ConnectionAnswer&) = delete;
   ConnectionAnswer& operator=(const ConnectionAnswer&) = delete;
@@ -558,6 +596,24 @@ void keep_from_programs(int descriptor) {
   ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);
 }
 
+// The IP address; empty for a Unix socket.
+std::string host_of(const Stream::endpoint& endpoint) {
+  const sockaddr* const address = endpoint.data();
+  if (address->sa_family == AF_INET) {
+    const auto& four = reinterpret_cast<const sockaddr_in&>(*address);
+    return net::ip::address_v4(ntohl(four.sin_addr.s_addr)).to_string();
+  }
+  if (address->sa_family != AF_INET6) return "";
+  const auto& six = reinterpret_cast<const sockaddr_in6&>(*address);
+  net::ip::address_v6::bytes_type bytes{};
+  std::copy_n(six.sin6_addr.s6_addr, bytes.size(), bytes.begin());
+  const net::ip::address_v6 whole(bytes);
+  // A socket for IPv6 takes IPv4, too.
+  return whole.is_v4_mapped()
+             ? net::ip::make_address_v4(net::ip::v4_mapped, whole).to_string()
+             : whole.to_string();
+}
+
 // A descriptor of the program's.
 struct Watch {
   explicit Watch(net::io_context& context) : descriptor(context) {}
@@ -583,8 +639,8 @@ struct Watch {
 
 class BeastEngine final : public Engine, private Hub {
  public:
-  explicit BeastEngine(const Limits& limits)
-      : limits_(limits), rules_(limits, 0) {}
+  BeastEngine(const Limits& limits, const Policy& policy)
+      : limits_(limits), policy_(policy), rules_(limits, policy, {}) {}
 
   ~BeastEngine() override {
     guard([&] { close(); });
@@ -592,8 +648,27 @@ class BeastEngine final : public Engine, private Hub {
   BeastEngine(const BeastEngine&) = delete;
   BeastEngine& operator=(const BeastEngine&) = delete;
 
-  int listen(std::uint16_t& port) noexcept override {
-    return guard([&] { open_acceptor(port); });
+  int listen(int descriptor, const Address& own) noexcept override {
+    return guard([&] {
+      acceptor_.assign(Stream(family_of(own), 0), descriptor);
+      rules_ = Rules(limits_, policy_, own);
+      accept();
+    });
+  }
+
+  int stop_listening(std::function<void()> call) noexcept override {
+    return guard([&] {
+      on_end_ = std::move(call);
+      is_ending_ = true;
+      close_listener();
+      const auto connections = connections_;
+      for (const auto& connection : connections) connection->close_if_idle();
+      if (connections.empty()) post(std::exchange(on_end_, {}));
+    });
+  }
+
+  void on_refusal(std::function<void(unsigned)> call) noexcept override {
+    on_refusal_ = std::move(call);
   }
 
   int on_readable(int descriptor,
@@ -657,27 +732,34 @@ class BeastEngine final : public Engine, private Hub {
       connection->abandon();
     }
     for (auto& [descriptor, watch] : watches_) watch->descriptor.release();
-    // Children that were forked meanwhile would go on listening.
-    if (acceptor_.is_open()) ::shutdown(acceptor_.native_handle(), SHUT_RDWR);
+    close_listener();
   }
 
-  void open_acceptor(std::uint16_t& port) {
-    tcp::acceptor acceptor(
-        context_, tcp::endpoint(net::ip::address_v4::loopback(), port));
-    keep_from_programs(acceptor.native_handle());
-    port = acceptor.local_endpoint().port();
-    rules_ = Rules(limits_, port);
-    acceptor_ = std::move(acceptor);
-    accept();
+  // As Connection::close(): children that were forked meanwhile would go on
+  // listening.
+  void close_listener() {
+    pause_.cancel();
+    if (!acceptor_.is_open()) return;
+    const int descriptor = acceptor_.release();
+    ::shutdown(descriptor, SHUT_RDWR);
+    ::close(descriptor);
+  }
+
+  static int family_of(const Address& own) {
+    if (own.host.empty()) return AF_UNIX;
+    return own.host.find(':') == std::string::npos ? AF_INET : AF_INET6;
   }
 
   void accept() {
-    acceptor_.async_accept([this](const Error& error, tcp::socket socket) {
-      if (error == net::error::operation_aborted) return;
-      if (error) return accept_later();
-      if (connections_.size() < limits_.connections) add(std::move(socket));
-      accept();
-    });
+    if (!acceptor_.is_open()) return;
+    acceptor_.async_accept(peer_,
+                           [this](const Error& error, Stream::socket socket) {
+                             if (!acceptor_.is_open()) return;
+                             if (error) return accept_later();
+                             if (connections_.size() < limits_.connections)
+                               add(std::move(socket));
+                             accept();
+                           });
   }
 
   void accept_later() {
@@ -687,20 +769,25 @@ class BeastEngine final : public Engine, private Hub {
     });
   }
 
-  void add(tcp::socket socket) {
+  void add(Stream::socket socket) {
     keep_from_programs(socket.native_handle());
     Error ignored;
     socket.non_blocking(true, ignored);
-    socket.set_option(tcp::no_delay(true), ignored);
+    socket.set_option(net::ip::tcp::no_delay(true), ignored);
     Hub& hub = *this;
     const auto connection =
-        std::make_shared<Connection>(hub, std::move(socket));
+        std::make_shared<Connection>(hub, std::move(socket), host_of(peer_));
     connections_.insert(connection);
     connection->start();
   }
 
   const Limits& limits() const override { return limits_; }
   const Rules& rules() const override { return rules_; }
+  const Policy& policy() const override { return policy_; }
+  bool is_ending() const override { return is_ending_; }
+  void report_refusal(unsigned status) override {
+    if (on_refusal_) on_refusal_(status);
+  }
   void handle(const Request& request, std::unique_ptr<Answer> answer) override {
     (*handler_)(request, std::move(answer));
   }
@@ -709,6 +796,7 @@ class BeastEngine final : public Engine, private Hub {
   }
   void remove(const std::shared_ptr<Connection>& connection) override {
     connections_.erase(connection);
+    if (on_end_ && connections_.empty()) post(std::exchange(on_end_, {}));
   }
   void fail() noexcept override {
     has_failed_ = true;
@@ -716,13 +804,18 @@ class BeastEngine final : public Engine, private Hub {
   }
 
   const Limits limits_;
+  const Policy policy_;
   Rules rules_;
   net::io_context context_{1};  // one thread
-  tcp::acceptor acceptor_{context_};
+  Acceptor acceptor_{context_};
+  Stream::endpoint peer_;  // of the connection that comes next
   net::steady_timer pause_{context_};
   std::set<std::shared_ptr<Connection>> connections_;
   std::map<int, std::shared_ptr<Watch>> watches_;
   const AnswerHandler* handler_ = nullptr;
+  std::function<void(unsigned)> on_refusal_;
+  std::function<void()> on_end_;
+  bool is_ending_ = false;
   bool has_failed_ = false;
 };
 
@@ -730,12 +823,12 @@ class BeastEngine final : public Engine, private Hub {
 }  // namespace lamina::http
 
 extern "C" __attribute__((visibility("default"))) lamina::http::Engine*
-lamina_make_http_engine(int version,
-                        const lamina::http::Limits* limits) noexcept {
+lamina_make_http_engine(int version, const lamina::http::Limits* limits,
+                        const lamina::http::Policy* policy) noexcept {
   errno = 0;
   if (version != lamina::http::kEngineVersion) return nullptr;
   try {
-    return new lamina::http::BeastEngine(*limits);
+    return new lamina::http::BeastEngine(*limits, *policy);
   } catch (const std::exception&) {
     errno = ENOMEM;
     return nullptr;

@@ -56,13 +56,58 @@ void add_cookies(std::string_view value, Request& request) {
   }
 }
 
+std::string joined(const std::vector<std::string_view>& values) {
+  std::string all;
+  for (const std::string_view value : values) {
+    if (!all.empty()) all += ", ";
+    all += value;
+  }
+  return all;
+}
+
+// The IP address of the client.
+//
+// host  the one at the other end
+std::string peer_of(const Head& head, const std::string& host) {
+  constexpr std::size_t kMost = 64;
+  const auto lists = values_of(head, "X-Forwarded-For");
+  if (lists.empty() || !(host.empty() || is_loopback(host))) return host;
+  // A web server appends the address that it has seen itself.
+  const std::string_view last = trim(split(lists.back(), ',').back());
+  return last.empty() ? host : std::string(last.substr(0, kMost));
+}
+
+// Without its port: "[::1]" of "[::1]:8280".
+std::string_view name_of(std::string_view host) {
+  const std::size_t bracket = host.find(']');
+  return host.substr(
+      0, host.find(':', bracket == std::string_view::npos ? 0 : bracket));
+}
+
+// The Hosts of requests to this machine itself.
+std::vector<std::string> local_hosts(const Policy& policy, const Address& own) {
+  std::vector<std::string> names = {"127.0.0.1", "localhost"};
+  if (policy.peers == Peers::kPrograms) {
+    names.insert(names.end(), {"[::1]", own.host});
+  }
+  std::vector<std::string> hosts;
+  for (const std::string& name : names) {
+    hosts.push_back(name + ":" + std::to_string(own.port));
+    // Clients leave the usual port out.
+    if (own.port == 80) hosts.push_back(name);
+  }
+  return hosts;
+}
+
 }  // namespace
 
-Rules::Rules(const Limits& limits, std::uint16_t port) : limits_(limits) {
-  for (const std::string name : {"127.0.0.1", "localhost"}) {
-    hosts_.push_back(name + ":" + std::to_string(port));
-    // Browsers leave the usual port out.
-    if (port == 80) hosts_.push_back(name);
+Rules::Rules(const Limits& limits, const Policy& policy, const Address& own)
+    : limits_(limits), policy_(policy) {
+  const bool is_for_browsers = policy.peers == Peers::kBrowsers;
+  if (!is_for_browsers && !policy.hosts.empty()) {
+    hosts_ = policy.hosts;
+  } else if (is_for_browsers || is_loopback(own.host)) {
+    hosts_ = local_hosts(policy, own);
   }
 }
 
@@ -81,11 +126,16 @@ std::optional<Refusal> Rules::judge_length(std::string_view bytes) const {
 std::optional<Refusal> Rules::judge(const Head& head) const {
   if (const auto refusal = judge_syntax(head)) return refusal;
   if (const auto refusal = judge_body(head)) return refusal;
-  return judge_sender(head);
+  if (const auto refusal = judge_host(head)) return refusal;
+  if (policy_.peers == Peers::kPrograms) return std::nullopt;
+  return judge_site(head);
 }
 
 std::optional<Refusal> Rules::judge_syntax(const Head& head) const {
-  if (head.version != 11) return Refusal{400, "Only HTTP/1.1 is spoken here"};
+  const bool is_known =
+      head.version == 11 ||
+      (head.version == 10 && policy_.peers == Peers::kPrograms);
+  if (!is_known) return Refusal{400, "Only HTTP/1.1 is spoken here"};
   for (const std::string_view fold : {"\n ", "\n\t"}) {
     if (head.bytes.find(fold) != std::string_view::npos) {
       return Refusal{400, "A header is folded"};
@@ -128,13 +178,21 @@ std::optional<Refusal> Rules::judge_body(const Head& head) const {
   return std::nullopt;
 }
 
-// Whether a page of this server, or the user, has sent it.
-std::optional<Refusal> Rules::judge_sender(const Head& head) const {
+std::optional<Refusal> Rules::judge_host(const Head& head) const {
   const auto hosts = values_of(head, "Host");
+  // HTTP/1.0 does not know it.
+  if (hosts.empty() && head.version == 10 && policy_.hosts.empty()) {
+    return std::nullopt;
+  }
   if (hosts.size() != 1) return Refusal{400, "There must be one Host"};
   if (!is_own(hosts.front())) {
     return Refusal{403, "The Host is not this server's"};
   }
+  return std::nullopt;
+}
+
+// Whether a page of this server, or the user, has sent it.
+std::optional<Refusal> Rules::judge_site(const Head& head) const {
   const auto origins = values_of(head, "Origin");
   for (const std::string_view origin : origins) {
     constexpr std::string_view kScheme = "http://";
@@ -155,11 +213,19 @@ std::optional<Refusal> Rules::judge_sender(const Head& head) const {
 }
 
 bool Rules::is_own(std::string_view host) const {
-  return std::find(hosts_.begin(), hosts_.end(), host) != hosts_.end();
+  if (policy_.peers == Peers::kBrowsers) {
+    return std::find(hosts_.begin(), hosts_.end(), host) != hosts_.end();
+  }
+  if (hosts_.empty()) return true;
+  return std::any_of(hosts_.begin(), hosts_.end(), [&](const std::string& own) {
+    return is_equal(own, host) || is_equal(own, name_of(host));
+  });
 }
 
-Request request_of(const Head& head) {
+Request request_of(const Head& head, const std::string& host) {
   Request request;
+  request.if_none_match = joined(values_of(head, "If-None-Match"));
+  request.peer = peer_of(head, host);
   request.method = head.method == "HEAD" ? "GET" : head.method;
   const std::size_t mark = head.target.find('?');
   request.path = head.target.substr(0, mark);
@@ -175,6 +241,25 @@ Request request_of(const Head& head) {
     add_cookies(value, request);
   }
   return request;
+}
+
+Response refusal_response(const Refusal& refusal, const Policy& policy) {
+  Response response;
+  response.status = refusal.status;
+  if (policy.has_problems) {
+    // Neither text has anything to escape.
+    response.type = "application/problem+json";
+    response.body = R"({"type":"about:blank","title":")" +
+                    std::string(title_of(refusal.status)) + R"(","status":)" +
+                    std::to_string(refusal.status) + R"(,"detail":")" +
+                    refusal.reason + R"("})";
+  } else {
+    response.body = std::string(refusal.reason) + "\n";
+  }
+  if (refusal.status == 405) {
+    response.headers.emplace_back("Allow", "GET, HEAD, POST");
+  }
+  return response;
 }
 
 bool is_sendable(const Response& response) {

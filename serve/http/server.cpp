@@ -23,8 +23,12 @@ class Guard {
   void set_engine(Engine& engine) { engine_ = &engine; }
 
   // The call, which throws no more.
-  std::function<void()> guarded(std::function<void()> call) {
-    return [this, call = std::move(call)] { keep_fault(call); };
+  template <typename... Arguments>
+  std::function<void(Arguments...)> guarded(
+      std::function<void(Arguments...)> call) {
+    return [this, call = std::move(call)](Arguments... arguments) {
+      keep_fault([&] { call(arguments...); });
+    };
   }
 
   template <typename Call>
@@ -74,11 +78,15 @@ class ModuleServer final : public Server {
     guard_.set_engine(*engine_);
   }
 
-  std::uint16_t listen(std::uint16_t port) override {
-    const int error = engine_->listen(port);
-    if (error == ENOMEM) throw std::bad_alloc();
-    errno = error;
-    return error == 0 ? port : std::uint16_t{0};
+  void listen(OpenFile listener) override {
+    const Address own = address_of(listener);
+    check(engine_->listen(listener.release(), own));
+  }
+  void stop_listening(std::function<void()> call) override {
+    check(engine_->stop_listening(guard_.guarded(std::move(call))));
+  }
+  void on_refusal(std::function<void(unsigned status)> call) override {
+    engine_->on_refusal(guard_.guarded(std::move(call)));
   }
 
   void on_readable(int descriptor, std::function<void()> call) override {
@@ -111,12 +119,12 @@ class ModuleServer final : public Server {
 
 }  // namespace
 
-std::unique_ptr<Server> make_server(const Limits& limits,
+std::unique_ptr<Server> make_server(const Limits& limits, const Policy& policy,
                                     const std::vector<std::string>& folders,
                                     Diagnostics& diagnostics) {
   auto* const make_engine =
       reinterpret_cast<MakeEngine*>(open_module(kModule, folders, diagnostics));
-  std::unique_ptr<Engine> engine(make_engine(kEngineVersion, &limits));
+  std::unique_ptr<Engine> engine(make_engine(kEngineVersion, &limits, &policy));
   if (!engine) fail_without_engine(kModule, errno, diagnostics);
   return std::make_unique<ModuleServer>(std::move(engine));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A server for HTTP/1.1 on this machine alone, with a limit for everything that
-// a stranger can send.
+// A server for HTTP/1.1, with a limit for everything that a stranger can send:
+// for the browsers of this machine's user, or for programs (Policy).
 //
 // Boost.Beast reads and writes; it stands behind a module (base/file/module.h),
 // so that no other run pays for it. One thread does all: it calls the handler
@@ -11,9 +11,10 @@
 //   400  what is not HTTP/1.1: other versions, other targets than "/…" in
 //        visible ASCII, control characters, folded lines; no Host or two, two
 //        Content-Lengths, a body of GET
-//   403  a Host other than 127.0.0.1:PORT and localhost:PORT (DNS rebinding);
-//        an Origin other than "http://" and one of these, a Sec-Fetch-Site
-//        other than same-origin and none, a POST without Origin (cross-site)
+//   403  a Host that is not the server's (DNS rebinding); of browsers, whose
+//        cookies count, also what another site has sent: an Origin other than
+//        "http://" and an own Host, a Sec-Fetch-Site other than same-origin and
+//        none, a POST without Origin
 //   405  methods other than GET, HEAD and POST
 //   408  headers or a body that take longer than their limit
 //   413  a body longer than the limit
@@ -23,9 +24,10 @@
 //   501  Transfer-Encoding
 //
 // Browsers send an Origin with each POST, so the rule for it costs none of them
-// anything. After a refusal the connection is closed. More connections than the
-// limit are closed as they come. Paths are not made shorter: "/../x" is the
-// handler's to refuse.
+// anything. Of programs HTTP/1.0 is taken, too, as web servers send on requests
+// by it, and there may be no Host in it. After a refusal the connection is
+// closed. More connections than the limit are closed as they come. Paths are
+// not made shorter: "/../x" is the handler's to refuse.
 
 #include <chrono>
 #include <cstddef>
@@ -39,6 +41,9 @@
 
 #include "base/diagnostic.h"
 #include "base/file/module.h"
+#include "base/file/open_file.h"
+#include "serve/http/listener.h"
+#include "serve/http/status.h"
 
 namespace lamina::http {
 
@@ -58,12 +63,30 @@ struct Limits {
   std::size_t queued_bytes = 32 << 20;
 };
 
+enum class Peers { kBrowsers, kPrograms };
+
+struct Policy {
+  Peers peers = Peers::kBrowsers;
+  // The Hosts that programs may name, in any letter case, with a port or for
+  // each. Where there are none: 127.0.0.1:PORT, localhost:PORT and [::1]:PORT
+  // if the server listens on a loopback address, else any. Browsers may name
+  // the first two.
+  std::vector<std::string> hosts;
+  // Refusals are problems of RFC 9457 (application/problem+json), not words.
+  bool has_problems = false;
+};
+
 struct Request {
   std::string method;        // "GET" also for HEAD, "POST"
   std::string path;          // as it came, without the query: "/file/5"
   std::string query;         // behind the '?', as it came
   std::string content_type;  // without parameters, lower case
   std::string body;
+  std::string if_none_match;  // all of them, joined by ", "
+  // The IP address of the client. Of one on this machine, which may have sent
+  // on the request for another: the last one of X-Forwarded-For, of any text,
+  // at most 64 bytes. Empty if it is not known.
+  std::string peer;
   std::vector<std::pair<std::string, std::string>> cookies;
 
   // The value of a cookie; empty if it is not there.
@@ -83,6 +106,7 @@ struct Response {
   // may be of any size; 404 where it cannot be opened.
   std::string file;
   // Beside those that every answer has: security policy, no caching, length.
+  // One of the first two kinds is sent instead of the server's of that name.
   // Where a name or value cannot be sent (line feeds in it), the answer is 500.
   std::vector<std::pair<std::string, std::string>> headers;
 };
@@ -121,11 +145,18 @@ class Server {
   // Connections end at once, and no call is made.
   virtual ~Server() = default;
 
-  // Listens on the loopback address 127.0.0.1. Returns the port, or 0 with
-  // errno where that is not possible.
-  //
-  // port  0: any that is free
-  virtual std::uint16_t listen(std::uint16_t port) = 0;
+  // Takes connections of a socket that listens (open_listener()). To be called
+  // once.
+  virtual void listen(OpenFile listener) = 0;
+
+  // Takes no connections any more, also none of those that wait for it. Those
+  // without a request end now, the others with their answer. Calls once the
+  // last has ended.
+  virtual void stop_listening(std::function<void()> call) = 0;
+
+  // Calls with the status of each answer that the server gives by itself: of
+  // refusals, and of 500 where the handler has given an answer up.
+  virtual void on_refusal(std::function<void(unsigned status)> call) = 0;
 
   // Calls whenever a descriptor, which no longer blocks from now on, can be
   // read or has come to its end, and at times when there is nothing to read,
@@ -149,7 +180,7 @@ inline constexpr Module kModule{"lamina_http.so", "lamina_make_http_engine",
                                 "serving", ""};
 
 // Opens the module. Throws GeometryError where it is missing.
-std::unique_ptr<Server> make_server(const Limits& limits,
+std::unique_ptr<Server> make_server(const Limits& limits, const Policy& policy,
                                     const std::vector<std::string>& folders,
                                     Diagnostics& diagnostics);
 

@@ -1,8 +1,9 @@
 // What a stranger sends to the server over one connection.
 //
-// The server and its peer take turns in one thread: the peer sends all, ends
-// its side and reads to the end. The bytes "PORT" stand for the server's port,
-// which a request must name.
+// Each input goes to a server for browsers and to one for programs. Server and
+// peer take turns in one thread: the peer sends all, ends its side and reads to
+// the end. The bytes "PORT" stand for the server's port, which a request must
+// name.
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -26,15 +28,21 @@ using namespace lamina;
 
 namespace {
 
-http::Server& server_of(std::uint16_t& port) {
-  static Diagnostics diagnostics;
-  static const auto server =
-      http::make_server({}, {LAMINA_MODULES}, diagnostics);
-  static const std::uint16_t own_port = server->listen(0);
-  fuzz::require(own_port != 0, "there is a port");
-  port = own_port;
-  return *server;
-}
+struct Serving {
+  explicit Serving(http::Peers peers) {
+    http::Policy policy;
+    policy.peers = peers;
+    policy.has_problems = peers == http::Peers::kPrograms;
+    server = http::make_server({}, policy, {LAMINA_MODULES}, diagnostics);
+    OpenFile listener = http::open_listener(http::parse_address("0"));
+    port = http::address_of(listener).port;
+    server->listen(std::move(listener));
+  }
+
+  Diagnostics diagnostics;
+  std::unique_ptr<http::Server> server;
+  std::uint16_t port = 0;
+};
 
 std::string with_port(std::string text, std::uint16_t port) {
   constexpr std::string_view kMark = "PORT";
@@ -116,22 +124,20 @@ int take_answer(std::string_view& answers, bool is_head) {
   return std::atoi(head.c_str() + 9);
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
-                                      std::size_t size) {
-  std::uint16_t port = 0;
-  http::Server& server = server_of(port);
+void check(const Serving& serving, std::string_view input) {
   int handled = 0;
-  const std::string answers = exchange(
-      server, port, with_port(std::string(fuzz::as_text(data, size)), port),
-      [&](const http::Request& request,
-          const std::shared_ptr<http::Reply>& reply) {
-        ++handled;
-        require_well_formed(request);
-        // Without a body HEAD and GET are answered alike.
-        reply->send({});
-      });
+  int refused = 0;
+  serving.server->on_refusal([&](unsigned) { ++refused; });
+  const std::string answers =
+      exchange(*serving.server, serving.port,
+               with_port(std::string(input), serving.port),
+               [&](const http::Request& request,
+                   const std::shared_ptr<http::Reply>& reply) {
+                 ++handled;
+                 require_well_formed(request);
+                 // Without a body HEAD and GET are answered alike.
+                 reply->send({});
+               });
   std::string_view rest = answers;
   for (int i = 0; i < handled; ++i) {
     fuzz::require(take_answer(rest, false) == 200,
@@ -144,5 +150,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                   "what is not handled is refused");
     fuzz::require(rest.empty(), "nothing comes after a refusal");
   }
+  fuzz::require(
+      refused <= 1 && (refused == 1 || answers.empty() || handled > 0),
+      "each answer is the handler's, or the last is a refusal");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
+                                      std::size_t size) {
+  static const Serving browsers(http::Peers::kBrowsers);
+  static const Serving programs(http::Peers::kPrograms);
+  const std::string_view input = fuzz::as_text(data, size);
+  check(browsers, input);
+  check(programs, input);
   return 0;
 }

@@ -36,8 +36,13 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  // Puts the port that was found where 0 was asked for.
-  virtual int listen(std::uint16_t& port) noexcept = 0;
+  // Closes the descriptor at the end.
+  //
+  // own  where it listens
+  virtual int listen(int descriptor, const Address& own) noexcept = 0;
+  virtual int stop_listening(std::function<void()> call) noexcept = 0;
+  virtual void on_refusal(
+      std::function<void(unsigned status)> call) noexcept = 0;
   virtual int on_readable(int descriptor,
                           std::function<void()> call) noexcept = 0;
   virtual void forget(int descriptor) noexcept = 0;
@@ -47,11 +52,12 @@ class Engine {
   virtual void stop() noexcept = 0;
 };
 
-// Grows with every change above, and of Limits, Request and Response.
-constexpr int kEngineVersion = 1;
+// Grows with every change above, and of Limits, Policy, Request and Response.
+constexpr int kEngineVersion = 2;
 
 // The module's function: a new engine; null if it has another version, or
 // there is no memory (errno is ENOMEM then).
-using MakeEngine = Engine*(int version, const Limits* limits);
+using MakeEngine = Engine*(int version, const Limits* limits,
+                           const Policy* policy);
 
 }  // namespace lamina::http

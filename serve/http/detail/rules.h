@@ -33,8 +33,8 @@ struct Head {
 
 class Rules {
  public:
-  // port  where the server listens
-  Rules(const Limits& limits, std::uint16_t port);
+  // own  where the server listens
+  Rules(const Limits& limits, const Policy& policy, const Address& own);
 
   // Judges a head that is not whole yet by its length.
   std::optional<Refusal> judge_length(std::string_view bytes) const;
@@ -45,15 +45,22 @@ class Rules {
  private:
   std::optional<Refusal> judge_syntax(const Head& head) const;
   std::optional<Refusal> judge_body(const Head& head) const;
-  std::optional<Refusal> judge_sender(const Head& head) const;
+  std::optional<Refusal> judge_host(const Head& head) const;
+  std::optional<Refusal> judge_site(const Head& head) const;
   bool is_own(std::string_view host) const;
 
   Limits limits_;
-  std::vector<std::string> hosts_;  // "127.0.0.1:8080", "localhost:8080"
+  Policy policy_;
+  std::vector<std::string> hosts_;  // "127.0.0.1:8080"; any if there are none
 };
 
 // The request, without its body, of a head that the rules let through.
-Request request_of(const Head& head);
+//
+// host  the IP address at the other end; empty for a Unix socket
+Request request_of(const Head& head, const std::string& host);
+
+// An answer of the server's own.
+Response refusal_response(const Refusal& refusal, const Policy& policy);
 
 // Whether all that it puts into headers can stand there.
 bool is_sendable(const Response& response);

@@ -70,9 +70,11 @@ int main() {
   Diagnostics diagnostics;
   http::Limits limits;
   limits.queued_bytes = std::size_t{4} << 20;
-  const auto server = http::make_server(limits, {LAMINA_MODULES}, diagnostics);
-  const std::uint16_t port = server->listen(0);
-  if (port == 0) return 1;
+  const auto server =
+      http::make_server(limits, {}, {LAMINA_MODULES}, diagnostics);
+  OpenFile listener = http::open_listener(http::parse_address("0"));
+  const std::uint16_t port = http::address_of(listener).port;
+  server->listen(std::move(listener));
   std::cout << port << std::endl;
   server->on_readable(STDIN_FILENO, [&] { server->stop(); });
   server->run([&](const http::Request& request,

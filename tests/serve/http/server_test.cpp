@@ -1,188 +1,28 @@
 #include "serve/http/server.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <csignal>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/serve/http/serving.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/text.h"
 
 namespace lamina::http {
 namespace {
 
-using std::chrono::milliseconds;
-using support::has;
-using ReplyPointer = std::shared_ptr<Reply>;
-
-// A connection to a server, as a stranger opens it.
-class Client {
- public:
-  explicit Client(std::uint16_t port)
-      : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address),
-                        sizeof address),
-              0);
-    const timeval most{10, 0};
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
-  }
-  ~Client() { close(); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  void send(const std::string& bytes) {
-    EXPECT_EQ(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL),
-              static_cast<ssize_t>(bytes.size()));
-  }
-  // All up to the end.
-  std::string receive() {
-    std::string all;
-    while (receive_some(all)) {
-    }
-    return all;
-  }
-  // All up to the words.
-  std::string receive_to(const std::string& words) {
-    std::string all;
-    while (!has(all, words) && receive_some(all)) {
-    }
-    return all;
-  }
-  void close() {
-    if (socket_ >= 0) ::close(std::exchange(socket_, -1));
-  }
-
- private:
-  bool receive_some(std::string& all) {
-    std::array<char, 65536> bytes{};
-    const ssize_t size = ::recv(socket_, bytes.data(), bytes.size(), 0);
-    if (size > 0) all.append(bytes.data(), static_cast<std::size_t>(size));
-    return size > 0;
-  }
-
-  int socket_;
-};
-
-class Pipe {
- public:
-  Pipe() { EXPECT_EQ(::pipe(ends_.data()), 0); }
-  ~Pipe() {
-    ::close(ends_[0]);
-    end();
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-
-  int reader() const { return ends_[0]; }
-  void write(char byte) { EXPECT_EQ(::write(ends_[1], &byte, 1), 1); }
-  char read() {
-    char byte = 0;
-    EXPECT_EQ(::read(ends_[0], &byte, 1), 1);
-    return byte;
-  }
-  void end() {
-    if (ends_[1] >= 0) ::close(std::exchange(ends_[1], -1));
-  }
-
- private:
-  std::array<int, 2> ends_{};
-};
-
-class Serving : public testing::Test {
- protected:
-  explicit Serving(const Limits& limits = {})
-      : server_(make_server(limits, {LAMINA_MODULES}, diagnostics_)),
-        port_(server_->listen(0)) {
-    EXPECT_NE(port_, 0);
-  }
-
-  // Serves while the client does its work in a thread.
-  template <typename Work>
-  void serve(const Handler& handler, const Work& work) {
-    Pipe done;
-    server_->on_readable(done.reader(), [&] { server_->stop(); });
-    std::thread client([&] {
-      work();
-      done.write('x');
-    });
-    try {
-      server_->run(handler);
-    } catch (...) {
-      server_.reset();
-      client.join();
-      throw;
-    }
-    client.join();
-    server_->forget(done.reader());
-  }
-
-  // What the server sends for a request, until it ends the connection.
-  std::string answer_to(const std::string& request, const Handler& handler) {
-    std::string answer;
-    serve(handler, [&] {
-      Client client(port_);
-      client.send(request);
-      answer = client.receive();
-    });
-    return answer;
-  }
-
-  std::string host() const {
-    return "Host: 127.0.0.1:" + std::to_string(port_) + "\r\n";
-  }
-  // A request after which the connection ends.
-  std::string get(const std::string& target, const std::string& lines = "",
-                  const std::string& method = "GET") const {
-    return method + " " + target + " HTTP/1.1\r\n" + host() + lines +
-           "Connection: close\r\n\r\n";
-  }
-  std::string post(const std::string& target, const std::string& body) const {
-    return get(target,
-               "Origin: http://127.0.0.1:" + std::to_string(port_) +
-                   "\r\nContent-Length: " + std::to_string(body.size()) +
-                   "\r\n",
-               "POST") +
-           body;
-  }
-
-  Diagnostics diagnostics_;
-  std::unique_ptr<Server> server_;
-  std::uint16_t port_;
-};
-
-Response text(const std::string& body) {
-  Response response;
-  response.body = body;
-  return response;
-}
-
-Handler always(const Response& response) {
-  return [response](const Request&, const ReplyPointer& reply) {
-    reply->send(response);
-  };
-}
-
-std::string body_of(const std::string& answer) {
-  const std::size_t end = answer.find("\r\n\r\n");
-  return end == std::string::npos ? "" : answer.substr(end + 4);
-}
-
 TEST(MakeServer, SaysWhereTheModuleIsMissing) {
   Diagnostics diagnostics;
-  EXPECT_THROW(make_server({}, {"/nonexistent"}, diagnostics), GeometryError);
+  EXPECT_THROW(make_server({}, {}, {"/nonexistent"}, diagnostics),
+               GeometryError);
 }
 
 TEST_F(Serving, AnswersByWhatTheHandlerSends) {
@@ -226,16 +66,49 @@ TEST_F(Serving, SendsTheSecurityHeadersWithEveryAnswer) {
       answer_to(get("/"), [](const Request&, const ReplyPointer&) {}));
 }
 
-// A handler cannot open what the server keeps shut, nor break the framing.
-TEST_F(Serving, OwnHeadersWin) {
+TEST_F(Serving, HandlersCannotBreakTheFraming) {
   Response response = text("hello");
   response.headers = {{"Content-Length", "1"},
                       {"Transfer-Encoding", "chunked"},
-                      {"cache-control", "public"}};
+                      {"Connection", "upgrade"},
+                      {"Content-Type", "text/html"}};
   const std::string answer = answer_to(get("/"), always(response));
   EXPECT_TRUE(has(answer, "\r\nContent-Length: 5\r\n")) << answer;
   EXPECT_FALSE(has(answer, "chunked")) << answer;
-  EXPECT_FALSE(has(answer, "public")) << answer;
+  EXPECT_FALSE(has(answer, "upgrade")) << answer;
+  EXPECT_FALSE(has(answer, "text/html")) << answer;
+}
+
+TEST_F(Serving, SendsTheHandlersHeaderInsteadOfItsOwn) {
+  Response response = text("hello");
+  response.headers = {{"cache-control", "public, max-age=60"},
+                      {"Content-Security-Policy", "default-src 'self'"}};
+  const std::string answer = answer_to(get("/"), always(response));
+  EXPECT_TRUE(has(answer, "\r\ncache-control: public, max-age=60\r\n"));
+  EXPECT_FALSE(has(answer, "no-store")) << answer;
+  EXPECT_TRUE(has(answer, "Policy: default-src 'self'\r\n")) << answer;
+  EXPECT_FALSE(has(answer, "default-src 'none'")) << answer;
+  EXPECT_TRUE(has(answer, "\r\nX-Content-Type-Options: nosniff\r\n"));
+}
+
+TEST_F(Serving, SendsNoBodyWhereNothingIsModified) {
+  Response response = text("hello");
+  response.status = 304;
+  response.headers = {{"ETag", "\"a\""}};
+  // The next answer of the connection follows at once.
+  const std::string answer =
+      answer_to("GET /one HTTP/1.1\r\n" + host() + "\r\n" + get("/two"),
+                [&](const Request& request, const ReplyPointer& reply) {
+                  reply->send(request.path == "/one" ? response : text("two"));
+                });
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 304 ")) << answer;
+  const std::size_t end = answer.find("\r\n\r\n");
+  const std::string head = answer.substr(0, end);
+  EXPECT_TRUE(has(head, "\r\nETag: \"a\"\r\n")) << head;
+  EXPECT_FALSE(has(head, "\r\nContent-Length")) << head;
+  EXPECT_FALSE(has(head, "\r\nContent-Type")) << head;
+  EXPECT_TRUE(answer.substr(end + 4).starts_with("HTTP/1.1 200 ")) << answer;
+  EXPECT_TRUE(answer.ends_with("\r\n\r\ntwo")) << answer;
 }
 
 TEST_F(Serving, AnswersBy500WhereAHeaderWouldInjectOthers) {
@@ -347,7 +220,7 @@ TEST_F(Serving, TakesTheFirstAnswerOnly) {
 TEST_F(Serving, AnswersRequestsOfOneConnectionInTheirOrder) {
   const std::string two = "GET /one HTTP/1.1\r\n" + host() + "\r\n" +
                           "POST /two HTTP/1.1\r\n" + host() +
-                          "Origin: http://localhost:" + std::to_string(port_) +
+                          "Origin: http://localhost:" + port() +
                           "\r\nContent-Length: 3\r\n\r\nabc";
   // The first is answered after the others have come.
   const std::string answer = answer_to(
@@ -418,7 +291,7 @@ TEST_F(Serving, CallsOnceThePeerOfAStreamHasGone) {
         });
       },
       [&] {
-        Client client(port_);
+        Client client(address_);
         client.send(get("/"));
         client.receive_to("\r\n\r\nx");
         client.close();
@@ -436,7 +309,7 @@ TEST_F(Serving, CallsOnceThePeerOfALateAnswerHasGone) {
         reply->on_close([&] { has_closed = true; });
       },
       [&] {
-        Client client(port_);
+        Client client(address_);
         client.send(get("/"));
         std::this_thread::sleep_for(milliseconds(50));
         client.close();
@@ -472,7 +345,7 @@ TEST_F(ServingLittle, CutsOffAStreamThatNobodyTakes) {
         EXPECT_FALSE(reply->is_open());
       },
       [&] {
-        Client client(port_);
+        Client client(address_);
         client.send(get("/"));
         std::this_thread::sleep_for(milliseconds(100));
         EXPECT_LT(client.receive().size(), std::size_t{64} << 20);
@@ -490,7 +363,7 @@ TEST_F(ServingLittle, CutsOffAReaderThatStops) {
         reply->send(text(std::string(64 << 20, 'x')));
       },
       [&] {
-        Client client(port_);
+        Client client(address_);
         client.send(get("/"));
         std::this_thread::sleep_for(milliseconds(500));
       });
@@ -512,18 +385,18 @@ TEST_F(ServingLittle, EndsConnectionsThatTakeTooLong) {
 
 TEST_F(ServingLittle, ClosesConnectionsBeyondTheLimit) {
   serve(always(text("answer")), [&] {
-    Client one(port_);
-    Client two(port_);
+    Client one(address_);
+    Client two(address_);
     one.send("GET");
     two.send("GET");
     std::this_thread::sleep_for(milliseconds(20));
-    Client three(port_);
+    Client three(address_);
     EXPECT_EQ(three.receive(), "");
     // They end, and there is room again.
     EXPECT_TRUE(one.receive().starts_with("HTTP/1.1 408 "));
     one.close();
     std::this_thread::sleep_for(milliseconds(20));
-    Client four(port_);
+    Client four(address_);
     four.send(get("/"));
     EXPECT_EQ(body_of(four.receive()), "answer");
   });
@@ -591,9 +464,8 @@ TEST_F(Serving, ThrowsWhatACallThrows) {
 }
 
 TEST_F(Serving, CannotListenOnAPortTwice) {
-  const auto other = make_server({}, {LAMINA_MODULES}, diagnostics_);
-  EXPECT_EQ(other->listen(port_), 0);
-  EXPECT_EQ(errno, EADDRINUSE);
+  EXPECT_EQ(error_of([&] { open_listener(address_); }),
+            "can't serve on port " + port() + ": Address already in use");
 }
 
 // Runs of a design are forked, and hold copies of all descriptors.
@@ -621,14 +493,13 @@ TEST_F(Serving, EndsConnectionsWhoseDescriptorsAChildHolds) {
         reply->write("x");
       },
       [&] {
-        Client client(port_);
+        Client client(address_);
         client.send(get("/"));
         stream = client.receive();
       });
   EXPECT_EQ(body_of(stream), "x");
   server_.reset();
-  const auto other = make_server({}, {LAMINA_MODULES}, diagnostics_);
-  EXPECT_EQ(other->listen(port_), port_);
+  EXPECT_EQ(address_of(open_listener(address_)).port, address_.port);
   for (const pid_t child : children) {
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
@@ -639,7 +510,7 @@ TEST_F(Serving, RepliesMayOutliveTheServer) {
   ReplyPointer kept;
   serve([&](const Request&, const ReplyPointer& reply) { kept = reply; },
         [&] {
-          Client client(port_);
+          Client client(address_);
           client.send(get("/"));
           std::this_thread::sleep_for(milliseconds(50));
         });
