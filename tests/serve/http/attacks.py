@@ -2,6 +2,7 @@
 
 usage: attacks.py --port PORT --pid PID [--path /] [--post /change]
                   [--stream /events] [--cookie NAME=VALUE] [--memory MB]
+                  [--programs]
 
 Prints a table, and ends with 1 if an answer is not as expected, if the server
 answers no more after an attack, or if its memory has passed the bound. "closed"
@@ -24,10 +25,11 @@ MEGABYTE = 1 << 20
 FLOOD = 64 * MEGABYTE
 
 # Where the server is; a path that can be got, one for posts, and one that
-# streams, if any; a cookie to send; the most memory that it may take [MB].
+# streams, if any; a cookie to send; the most memory that it may take [MB];
+# whether it serves programs, not browsers.
 Server = collections.namedtuple(
-    "Server", "port pid path post stream cookie memory",
-    defaults=("/", "/", None, None, 40))
+    "Server", "port pid path post stream cookie memory programs",
+    defaults=("/", "/", None, None, 40, False))
 
 Row = collections.namedtuple("Row", "name expected got seconds peak is_alive")
 
@@ -261,6 +263,7 @@ def fast_attacks(server):
     """Lists of a name, what is expected, and the bytes."""
     host = f"127.0.0.1:{server.port}"
     own = {200, 202, 400, 401, 403, 404, 409, 415, 422}  # the handler's, any
+    of_site = own if server.programs else {403}
 
     def get(*lines, **rest):
         return head(server, lines=lines, **rest)
@@ -286,23 +289,24 @@ def fast_attacks(server):
         ("two Hosts, one evil", {400}, get("Host: evil.example")),
         ("no Host", {400}, b"GET / HTTP/1.1\r\n\r\n"),
         ("an empty Host", {403}, get(host="")),
-        ("cross-site GET", {403}, get("Origin: http://evil.example")),
-        ("cross-site GET of an image", {403},
+        ("cross-site GET", of_site, get("Origin: http://evil.example")),
+        ("cross-site GET of an image", of_site,
          get("Sec-Fetch-Site: cross-site")),
-        ("GET of another port's page", {403}, get("Sec-Fetch-Site: same-site")),
-        ("cross-site POST", {403},
+        ("GET of another port's page", of_site,
+         get("Sec-Fetch-Site: same-site")),
+        ("cross-site POST", of_site,
          post(server, b"{}", ["Content-Length: 2",
                               "Origin: http://evil.example"], origin=False)),
-        ("POST, Origin null", {403},
+        ("POST, Origin null", of_site,
          post(server, b"{}", ["Content-Length: 2", "Origin: null"],
               origin=False)),
-        ("POST, Origin of https", {403},
+        ("POST, Origin of https", of_site,
          post(server, b"{}", ["Content-Length: 2", f"Origin: https://{host}"],
               origin=False)),
-        ("POST, two Origins", {403},
+        ("POST, two Origins", of_site,
          post(server, b"{}", ["Content-Length: 2",
                               "Origin: http://evil.example"])),
-        ("POST, no Origin", {403},
+        ("POST, no Origin", of_site,
          post(server, b"{}", ["Content-Length: 2"], origin=False)),
         ("CR LF in the target, escaped", own,
          line("GET /%0d%0aSet-Cookie:%20a=b HTTP/1.1")),
@@ -350,7 +354,8 @@ def fast_attacks(server):
         ("Expect", {417},
          post(server, b"", ["Content-Length: 2", "Expect: 100-continue"])),
         ("HTTP/0.9", {400}, b"GET /\r\n"),
-        ("HTTP/1.0", {400}, line("GET / HTTP/1.0")),
+        ("HTTP/1.0", own if server.programs else {400},
+         line("GET / HTTP/1.0")),
         ("HTTP/1.2", {400}, line("GET / HTTP/1.2")),
         ("HTTP/2's preface", {400}, b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n"),
         ("TLS's hello", {400},
@@ -490,6 +495,7 @@ def main():
     parser.add_argument("--stream")
     parser.add_argument("--cookie")
     parser.add_argument("--memory", type=float, default=40)
+    parser.add_argument("--programs", action="store_true")
     server = Server(**vars(parser.parse_args()))
     rows = run(server)
     print(table(rows, server))

@@ -14,13 +14,16 @@ PROGRAM = None
 
 
 class Attacks(unittest.TestCase):
+    ARGUMENTS = []
 
     def setUp(self):
         self.process = subprocess.Popen(
-            [PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+            [PROGRAM, *self.ARGUMENTS],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.addCleanup(self.end)
         port = int(self.process.stdout.readline())
-        self.server = attacks.Server(port, self.process.pid, stream="/stream")
+        self.server = attacks.Server(port, self.process.pid, stream="/stream",
+                                     programs=bool(self.ARGUMENTS))
 
     def end(self):
         self.process.stdin.close()
@@ -37,6 +40,10 @@ class Attacks(unittest.TestCase):
         for row in rows:
             with self.subTest(row.name):
                 self.assertTrue(attacks.is_well(row, self.server), row)
+
+
+class AttacksOfPrograms(Attacks):
+    ARGUMENTS = ["--programs"]
 
 
 if __name__ == "__main__":

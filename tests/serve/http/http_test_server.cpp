@@ -1,8 +1,11 @@
 // A server for tests: answers each request with what has reached the handler,
 // as JSON. It prints its port, and ends with its standard input.
 //
+// usage: http_test_server [--programs] [ADDRESS]
+//
 //   /stream   an answer without end, as fast as it is taken
 //   /late     answers after 300 ms
+//   /short    answers with an empty object
 //   /nothing  gives the reply up
 
 #include <chrono>
@@ -11,6 +14,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -59,6 +63,8 @@ void answer(http::Server& server, const http::Request& request,
     server.after(milliseconds(300), [reply, text = echo(request)] {
       reply->send(json_response(text));
     });
+  } else if (request.path == "/short") {
+    reply->send(json_response("{}"));
   } else if (request.path != "/nothing") {
     reply->send(json_response(echo(request)));
   }
@@ -66,13 +72,21 @@ void answer(http::Server& server, const http::Request& request,
 
 }  // namespace
 
-int main() {
+int main(int count, char** words) {
+  std::vector<std::string> arguments(words + 1, words + count);
+  http::Policy policy;
+  if (!arguments.empty() && arguments.front() == "--programs") {
+    policy.peers = http::Peers::kPrograms;
+    policy.has_problems = true;
+    arguments.erase(arguments.begin());
+  }
   Diagnostics diagnostics;
   http::Limits limits;
   limits.queued_bytes = std::size_t{4} << 20;
   const auto server =
-      http::make_server(limits, {}, {LAMINA_MODULES}, diagnostics);
-  OpenFile listener = http::open_listener(http::parse_address("0"));
+      http::make_server(limits, policy, {LAMINA_MODULES}, diagnostics);
+  OpenFile listener = http::open_listener(
+      http::parse_address(arguments.empty() ? "0" : arguments.front()));
   const std::uint16_t port = http::address_of(listener).port;
   server->listen(std::move(listener));
   std::cout << port << std::endl;
