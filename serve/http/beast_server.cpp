@@ -294,8 +294,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   void take_head() {
-    if (is_idle_) arm(limits_.header_time);
-    is_idle_ = false;
     if (const auto refusal = hub_->rules().judge_line(input_)) {
       return refuse(*refusal);
     }
@@ -309,6 +307,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (error && error != bh::error::need_more) {
       return refuse(refusal_of(error));
     }
+    if (std::exchange(is_idle_, false)) arm(limits_.header_time);
     read_more(limits_.header_bytes - input_.size(), &Connection::take_head);
   }
 
@@ -323,7 +322,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     body_size_ = parser_->content_length().value_or(0);
     input_.erase(0, parsed_);
     state_ = State::kBody;
-    arm(limits_.body_time);
+    is_idle_ = false;
+    // A body that has come needs no time.
+    if (input_.size() < body_size_) arm(limits_.body_time);
     take_body();
   }
 
