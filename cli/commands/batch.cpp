@@ -63,22 +63,6 @@ constexpr std::array<std::string_view, 12> kNeutralOptions = {
     "--ledger",  "--resume", "--collect",  "--report",
     "--threads", "--quiet",  "--max-time", "--max-memory"};
 
-// What is asked of all pieces, as text: all options that were given but the
-// neutral ones, so that one that is new counts by itself.
-std::string given_options(const OptionList& options) {
-  std::string text;
-  for (const GivenOption& option : options.given()) {
-    if (std::ranges::find(kNeutralOptions, option.name) !=
-        kNeutralOptions.end()) {
-      continue;
-    }
-    text += option.name;
-    for (const std::string& word : option.words) text += "\n " + word;
-    text += '\n';
-  }
-  return text;
-}
-
 Share parse_share(const std::string& text) {
   const std::size_t slash = text.find('/');
   const auto index = whole_number(std::string_view(text).substr(0, slash));
@@ -136,7 +120,7 @@ class BatchCommand : public Command {
     table_.request.output.is_strict =
         table_.request.output.is_strict.value_or(true);
     refuse_if(ledger_.path == "-", "--ledger takes a file, not '-'");
-    ledger_.asked = given_options(*options_);
+    ledger_.asked = given_text(*options_, kNeutralOptions);
   }
 
   int run(const Context& context) override {

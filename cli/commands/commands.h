@@ -47,6 +47,7 @@ std::unique_ptr<Command> make_parts_command();
 std::unique_ptr<Command> make_plate_command();
 std::unique_ptr<Command> make_preflight_command();
 std::unique_ptr<Command> make_printers_command();
+std::unique_ptr<Command> make_serve_command();
 std::unique_ptr<Command> make_sprue_command();
 std::unique_ptr<Command> make_studio_command();
 std::unique_ptr<Command> make_supports_command();
@@ -71,6 +72,7 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"plate", make_plate_command},
     NamedCommand{"preflight", make_preflight_command},
     NamedCommand{"printers", make_printers_command},
+    NamedCommand{"serve", make_serve_command},
     NamedCommand{"sprue", make_sprue_command},
     NamedCommand{"studio", make_studio_command},
     NamedCommand{"supports", make_supports_command},

@@ -330,4 +330,16 @@ std::vector<OptionFacts> OptionList::facts() const {
   return facts;
 }
 
+std::string given_text(const OptionList& options,
+                       std::span<const std::string_view> neutral) {
+  std::string text;
+  for (const GivenOption& option : options.given()) {
+    if (std::ranges::find(neutral, option.name) != neutral.end()) continue;
+    text += option.name;
+    for (const std::string& word : option.words) text += "\n " + word;
+    text += '\n';
+  }
+  return text;
+}
+
 }  // namespace lamina::cli

@@ -9,7 +9,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slicer/slice/settings.h"
@@ -141,5 +143,12 @@ class OptionList {
   std::unique_ptr<CLI::App> app_;
   std::string unused_;  // texts of flags that are read otherwise
 };
+
+// All options that were given but some, as text: one that is new counts by
+// itself.
+//
+// neutral  options that change nothing about what is made
+std::string given_text(const OptionList& options,
+                       std::span<const std::string_view> neutral);
 
 }  // namespace lamina::cli

@@ -19,6 +19,7 @@
 #include "csg/cad/cad_reader.h"
 #include "csg/import/decimate.h"
 #include "csg/text/typesetter.h"
+#include "serve/http/server.h"
 
 namespace lamina::cli {
 namespace {
@@ -166,7 +167,7 @@ void restrict_process(const FileAccess& access) {
   }
   for (const std::string& folder : module_folders()) {
     for (const Module& module :
-         {text::kModule, cad::kModule, csg::kDecimationModule}) {
+         {text::kModule, cad::kModule, csg::kDecimationModule, http::kModule}) {
       rules.allow_reading(folder + "/" + module.file);
     }
   }

@@ -137,10 +137,8 @@ void watch_over(const sigset_t& signals, TemporaryFiles& temporary_files,
                     lost_text(received.si_value.sival_int));
       case 0:
         break;
-      case SIGINT:
-        if (interrupt.take()) break;
-        [[fallthrough]];
       default:
+        if (interrupt.take(received.si_signo != SIGINT)) break;
         end_process(temporary_files, kInterrupted, "");
     }
     const std::string exceeded =

@@ -139,24 +139,6 @@ int hex_digit(char c) {
   return -1;
 }
 
-std::string percent_decoded(std::string_view text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      decoded += text[i] == '+' ? ' ' : text[i];
-      continue;
-    }
-    const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
-    const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
-    if (high < 0 || low < 0) {
-      throw MalformedOrder("the query has a '%' without two hex digits");
-    }
-    decoded += static_cast<char>(high * 16 + low);
-    i += 2;
-  }
-  return decoded;
-}
-
 // Adds what is asked for, with the usual sizes where the service has none, or
 // takes it away.
 template <typename Sizes>
@@ -245,6 +227,24 @@ Order read_order(std::string_view json) {
   return order;
 }
 
+std::string percent_decoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded += text[i];
+      continue;
+    }
+    const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+    const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
+    if (high < 0 || low < 0) {
+      throw MalformedOrder("the address has a '%' without two hex digits");
+    }
+    decoded += static_cast<char>(high * 16 + low);
+    i += 2;
+  }
+  return decoded;
+}
+
 std::string query_value(std::string_view query, std::string_view name) {
   std::optional<std::string> value;
   while (!query.empty()) {
@@ -255,7 +255,9 @@ std::string query_value(std::string_view query, std::string_view name) {
     if (value) {
       throw MalformedOrder(fmt::format("the query has '{}' twice", name));
     }
-    value = percent_decoded(part.substr(std::min(sign + 1, part.size())));
+    std::string written(part.substr(std::min(sign + 1, part.size())));
+    std::ranges::replace(written, '+', ' ');
+    value = percent_decoded(written);
   }
   return value.value_or("");
 }

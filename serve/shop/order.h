@@ -48,6 +48,9 @@ struct Order {
 // MalformedOrder and OrderError.
 Order read_order(std::string_view json);
 
+// A part of an address, decoded. Throws MalformedOrder where it cannot be.
+std::string percent_decoded(std::string_view text);
+
 // The value of a member of a query ("order=%7B%7D&format=slc"), decoded; '+' is
 // a blank. Empty where it is not there. Throws MalformedOrder where it cannot
 // be decoded, or is there twice.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "base/text.h"
 #include "compiler/validate.h"
 #include "serve/run/messages.h"
+#include "serve/run/pipe.h"
 #include "serve/studio/events.h"
 #include "serve/studio/page.h"
 
@@ -60,16 +60,6 @@ std::string file_name(const std::string& name) {
     plain += is_plain ? c : '_';
   }
   return plain;
-}
-
-// What can be read now. Empty at the end; no value where there is nothing: the
-// server may call for what a descriptor of the same number had.
-std::optional<std::string> read_some(const OpenFile& pipe) {
-  std::string bytes(1 << 16, '\0');
-  const ssize_t size = ::read(pipe.descriptor(), bytes.data(), bytes.size());
-  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
-  bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-  return bytes;
 }
 
 std::string cookie_name(std::uint16_t port) {
@@ -282,7 +272,8 @@ void Studio::make(Client& client, const Choice& choice, const std::string& body,
 }
 
 void Studio::read_shown(Client& client) {
-  const std::optional<std::string> bytes = read_some(client.shown.output);
+  const std::optional<std::string> bytes =
+      serve::read_some(client.shown.output.descriptor());
   if (!bytes) return;
   if (bytes->empty()) {
     end_shown(client);
@@ -309,7 +300,8 @@ void Studio::say_lost(Client& client) {
 }
 
 void Studio::read_made(Client& client) {
-  const std::optional<std::string> bytes = read_some(client.made.output);
+  const std::optional<std::string> bytes =
+      serve::read_some(client.made.output.descriptor());
   if (!bytes) return;
   std::optional<std::string> answer;
   client.made_frames.add(*bytes, [&](FrameKind kind, std::string frame) {

@@ -147,7 +147,7 @@ TEST(Query, IsDecoded) {
 TEST(Query, ThatCannotBeDecodedIsMalformed) {
   for (const char* query : {"order=%", "order=%2", "order=%2x", "order=%%41"}) {
     EXPECT_EQ(fault_of([&] { order_of_query(query); }),
-              "400: the query has a '%' without two hex digits");
+              "400: the address has a '%' without two hex digits");
   }
   EXPECT_EQ(fault_of([] { order_of_query("order=1&order=1"); }),
             "400: the query has 'order' twice");
