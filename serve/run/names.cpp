@@ -19,6 +19,11 @@ void add_name(std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
+const std::string& Names::own_name(const std::string& name) const {
+  const auto found = own_names.find(name);
+  return found == own_names.end() ? name : found->second;
+}
+
 Names known_names(const compiler::Request& request,
                   std::vector<std::string> designs) {
   Names names;
@@ -29,6 +34,9 @@ Names known_names(const compiler::Request& request,
   for (const slicer::Material& material : slicer::known_materials()) {
     (material.is_metal() ? names.metals : names.materials)
         .push_back(material.name);
+    for (const std::string& other : material.also) {
+      names.own_names.emplace(other, material.name);
+    }
   }
   add_name(names.printers, request.output.printer);
   add_name(names.materials, request.output.material);

@@ -1,6 +1,7 @@
 #pragma once
 // What a stranger may name: nothing else of a request reaches the file system.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct Names {
   std::vector<std::string> materials;
   std::vector<std::string> metals;
   std::vector<std::string> formats;  // extensions
+  // Lamina's own names of materials and metals, by their other names.
+  std::map<std::string, std::string> own_names;
+
+  // The own name that another one means; else the name itself.
+  const std::string& own_name(const std::string& name) const;
 };
 
 // The names that lamina knows, and those that `request` has: profiles, too.

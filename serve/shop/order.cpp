@@ -169,10 +169,11 @@ const std::string& priced(const compiler::OutputRequest& output,
 }
 
 void choose_materials(const Order& order, const compiler::OutputRequest& base,
+                      const serve::Names& names,
                       compiler::OutputRequest& output) {
-  output.printer = order.printer.value_or(base.printer);
-  output.material = order.material.value_or(base.material);
-  output.metal = order.metal.value_or(base.metal);
+  if (order.printer) output.printer = *order.printer;
+  if (order.material) output.material = names.own_name(*order.material);
+  if (order.metal) output.metal = names.own_name(*order.metal);
   std::erase_if(output.prices, [&](const slicer::Price& price) {
     return priced(output, price) != priced(base, price);
   });
@@ -276,7 +277,7 @@ compiler::Request request_of(const Order& order, const ParameterSet& values,
   if (order.supports) ask_for_supports(*order.supports, request);
   if (order.hollow) ask_for_walls(*order.hollow, request);
   if (order.sprue) ask_for(*order.sprue, slicer::SprueSizes{}, request.sprues);
-  choose_materials(order, base.output, request.output);
+  choose_materials(order, base.output, names, request.output);
   serve::require_name(names.printers, request.output.printer, "printer");
   serve::require_name(names.materials, request.output.material, "material");
   serve::require_name(names.metals, request.output.metal, "metal");

@@ -236,6 +236,14 @@ TEST_F(RequestOfAnOrder, NamesOnlyWhatIsListed) {
                serve::NameError);
 }
 
+TEST_F(RequestOfAnOrder, KnowsMaterialsByTheirOtherNames) {
+  EXPECT_EQ(request_of(R"({"metal": "gold-750"})").output.metal,
+            "gold-18k-yellow");
+  base.output.metal = "sterling-silver";
+  base.output.prices = {*slicer::parse_price("1.2 EUR/g")};
+  EXPECT_EQ(request_of(R"({"metal": "silver-925"})").output.prices.size(), 1U);
+}
+
 // 55 EUR/kg of silver is not the price of gold.
 TEST_F(RequestOfAnOrder, HasPricesOnlyOfTheirOwnMaterial) {
   base.output.material = "bluecast-x10";
