@@ -755,12 +755,15 @@ class BeastEngine final : public Engine, private Hub {
     if (!acceptor_.is_open()) return;
     acceptor_.async_accept(peer_,
                            [this](const Error& error, Stream::socket socket) {
-                             if (!acceptor_.is_open()) return;
-                             if (error) return accept_later();
-                             if (connections_.size() < limits_.connections)
-                               add(std::move(socket));
-                             accept();
+                             take_connection(error, std::move(socket));
                            });
+  }
+
+  void take_connection(const Error& error, Stream::socket socket) {
+    if (!acceptor_.is_open()) return;
+    if (error) return accept_later();
+    if (connections_.size() < limits_.connections) add(std::move(socket));
+    accept();
   }
 
   void accept_later() {
