@@ -58,7 +58,9 @@ std::optional<OutputDigest> digest_of_file(const OpenFile& file) {
   OutputDigest made;
   std::optional<std::string> block;
   made.digest = digest([&]() -> std::string_view {
-    block = file.read_at(made.bytes, kBlock);
+    // A byte more than there should be left shows whether the file grows.
+    const auto left = static_cast<std::uint64_t>(before.st_size) - made.bytes;
+    block = file.read_at(made.bytes, std::min<std::uint64_t>(kBlock, left + 1));
     if (!block) return {};
     made.bytes += block->size();
     return *block;

@@ -202,6 +202,8 @@ class DesignLoop {
       run.process = std::make_unique<ChildProcess>(
           [&](const ChildOutput&) {
             ::close(commands_);
+            // Else the pipes of the others would end with this one.
+            for (const Run& other : runs_) ::close(other.output.descriptor());
             limit_memory(options_.most_bytes);
             if (file >= 0) ::dup2(file, STDOUT_FILENO);
             options_.work.run(design_, run.command, run.output.descriptor());
