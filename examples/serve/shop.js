@@ -1,5 +1,4 @@
-// A form of what a design offers (shop.html?design=NAME, or the first one), and
-// the quote for what is chosen in it.
+// A form of what a design offers (?design=NAME, or the first), and a quote for it.
 const [form, text, picture] = ["form", "quote", "picture"].map((id) => document.getElementById(id));
 
 async function ask(path, options) {
