@@ -14,6 +14,9 @@ import threading
 import time
 import unittest
 
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
+from server_process import ServerProcess  # noqa: E402
+
 LAMINA = None
 
 BOX = "length = 4;  // [1:0.5:20]\ncube([length, 2, 3]);\n"
@@ -75,7 +78,7 @@ class Page:
         return events
 
 
-class Studio:
+class Studio(ServerProcess):
     def __init__(self, path, *options):
         self.process = subprocess.Popen(
             [LAMINA, "studio", path, *options], stdout=subprocess.PIPE,
@@ -89,33 +92,6 @@ class Studio:
         answer.read()
         self.cookie = answer.getheader("Set-Cookie").split(";")[0]
         connection.close()
-
-    def close(self):
-        self.process.kill()
-        self.process.wait()
-        self.process.stdout.close()
-
-    def memory(self):
-        """Of the server [MB]."""
-        with open(f"/proc/{self.process.pid}/status", encoding="ascii") as file:
-            return next(int(line.split()[1]) / 1024 for line in file
-                        if line.startswith("VmHWM"))
-
-    def processes(self):
-        """The server's children and theirs."""
-        def children(pid):
-            found = []
-            path = f"/proc/{pid}/task"
-            try:
-                for thread in os.listdir(path):
-                    with open(f"{path}/{thread}/children",
-                              encoding="ascii") as file:
-                        found += map(int, file.read().split())
-            except (FileNotFoundError, ProcessLookupError):
-                pass  # it has just ended
-            return found
-        own = children(self.process.pid)
-        return own + [pid for child in own for pid in children(child)]
 
 
 class ProtocolTest(unittest.TestCase):
@@ -157,20 +133,14 @@ class ProtocolTest(unittest.TestCase):
 
     def test_a_page_that_leaves_takes_its_processes_with_it(self):
         self.page.show()
-        self.wait_for_processes(self.studio, 1)
+        self.studio.wait_for_processes(1)
         others = [Page(self.studio) for _ in range(3)]
         for page in others:
             page.show()
-        self.wait_for_processes(self.studio, 4)
+        self.studio.wait_for_processes(4)
         for page in others:
             page.close()
-        self.wait_for_processes(self.studio, 1)
-
-    def wait_for_processes(self, studio, count):
-        deadline = time.monotonic() + 10
-        while len(studio.processes()) != count:
-            self.assertLess(time.monotonic(), deadline, studio.processes())
-            time.sleep(0.02)
+        self.studio.wait_for_processes(1)
 
     def test_a_run_that_never_ends_is_ended(self):
         self.write("endless.scad", "n = 1;\ncube(1 + len([for (i = [0 : n], "
@@ -178,11 +148,11 @@ class ProtocolTest(unittest.TestCase):
         studio = Studio(self.path("endless.scad"))
         page = Page(studio)
         self.assertTrue(page.show()["end"]["isWell"])
-        self.wait_for_processes(studio, 1)
+        studio.wait_for_processes(1)
         self.assertEqual(page.change({"n": "9000"}), 202)
-        self.wait_for_processes(studio, 2)
+        studio.wait_for_processes(2)
         self.assertTrue(page.show()["end"]["isWell"])
-        self.wait_for_processes(studio, 1)
+        studio.wait_for_processes(1)
         page.close()
         studio.close()
 
@@ -193,14 +163,14 @@ class ProtocolTest(unittest.TestCase):
         studio = Studio(self.path("endless.scad"))
         page = Page(studio)
         self.assertEqual(page.change(), 202)
-        self.wait_for_processes(studio, 2)
+        studio.wait_for_processes(2)
         os.kill(studio.processes()[0], signal.SIGKILL)
         while (event := page.take())["kind"] != "messages":
             pass
         self.assertIn("ended by the system", event["messages"][0]["message"])
         self.assertFalse(page.take()["isWell"])
         self.assertEqual(page.change(), 202)
-        self.wait_for_processes(studio, 2)
+        studio.wait_for_processes(2)
         page.close()
         studio.close()
 
