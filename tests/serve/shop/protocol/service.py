@@ -110,14 +110,14 @@ def by_query(path, order):
 
 
 class ServiceTest(unittest.TestCase):
-    """A folder of designs, and services that end with the test. `arguments` are
-    the words of the command line: the program first."""
+    """A folder of designs, and services that end with the test. `program` is
+    lamina."""
 
-    arguments = []
+    program = None
     designs = {"box.scad": BOX}
 
     def setUp(self):
-        self.lamina = os.path.abspath(self.arguments[0])
+        self.lamina = os.path.abspath(self.program)
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
@@ -161,8 +161,6 @@ class ServiceTest(unittest.TestCase):
         return problem
 
 
-def main(words=1):
-    """Runs the tests of the file; so many words of the command line are theirs."""
-    ServiceTest.arguments = sys.argv[1:1 + words]
-    del sys.argv[1:1 + words]
+def main():
+    ServiceTest.program = sys.argv.pop(1)
     unittest.main()
