@@ -18,18 +18,29 @@ class ServerProcess:
             return next(int(line.split()[1]) / 1024 for line in file
                         if line.startswith("VmHWM"))
 
-    def processes(self):
-        """The server's children and theirs."""
-        own = children(self.process.pid)
-        return own + [pid for child in own for pid in children(child)]
+    def runs(self):
+        """The processes of runs: children of those of designs."""
+        return [pid for child in children(self.process.pid)
+                for pid in children(child)]
 
-    def wait_for_processes(self, count, seconds=20):
-        """Until there are so many. Raises TimeoutError."""
-        deadline = time.monotonic() + seconds
-        while len(self.processes()) != count:
-            if time.monotonic() > deadline:
-                raise TimeoutError(f"{len(self.processes())} processes")
-            time.sleep(0.02)
+    def processes(self):
+        """Those of designs and of runs."""
+        return children(self.process.pid) + self.runs()
+
+    def wait_for_processes(self, count):
+        wait_for_count(self.processes, count)
+
+    def wait_for_runs(self, count):
+        wait_for_count(self.runs, count)
+
+
+def wait_for_count(list_of, count, seconds=20):
+    """Until there are so many. Raises TimeoutError."""
+    deadline = time.monotonic() + seconds
+    while len(found := list_of()) != count:
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"{len(found)} processes, not {count}")
+        time.sleep(0.02)
 
 
 def children(pid):

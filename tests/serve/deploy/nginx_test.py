@@ -21,7 +21,7 @@ class NginxTest(service.ServiceTest):
         super().setUp()
         os.chmod(self.folder, 0o755)
         self.socket = self.path("socket")
-        self.running = self.serve("--metal", "silver-925", "--price", "1.10/g",
+        self.running = self.serve("--metal", "sterling-silver", "--price", "1.10 EUR/g",
                                   listen=self.socket)
         os.chmod(self.socket, 0o666)  # the unit gives it to nginx's group
         folder = self.path("nginx")

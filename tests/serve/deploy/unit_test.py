@@ -7,6 +7,7 @@ usage: unit_test.py LAMINA [unittest's arguments]
 
 import os
 import re
+import shlex
 import signal
 import subprocess
 
@@ -42,7 +43,7 @@ def allowed_calls():
 
 class UnitTest(service.ServiceTest):
     designs = {"box.scad": service.BOX,
-               "text.scad": 'linear_extrude(1) text("Ada");\n',
+               "text.scad": 'words = "Ada";\nlinear_extrude(1) text(words);\n',
                "busy.scad": service.BUSY}
 
     def analyze(self, *words):
@@ -82,10 +83,9 @@ class UnitTest(service.ServiceTest):
     def trace(self):
         """What the program and its orders of all kinds ask the system for."""
         log = self.path("trace")
-        words = settings("ExecStart")[0]
         with open(UNIT, encoding="utf-8") as file:
-            words = re.search(r"^ExecStart=((?:.*\\\n)*.*)$", file.read(),
-                              re.MULTILINE)[1].replace("\\\n", "").split()
+            words = shlex.split(re.search(r"^ExecStart=((?:.*\\\n)*.*)$", file.read(),
+                              re.MULTILINE)[1].replace("\\\n", ""))
         options = words[words.index("/run/lamina/socket") + 1:]
         running = self.serve(*options, "--max-time", "20", listen=self.path("socket"),
                              command=["strace", "-f", "-qq", "-o", log])
