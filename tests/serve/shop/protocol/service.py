@@ -96,6 +96,14 @@ class Service(ServerProcess):
         return self.ask("POST", path, body,
                         **{"Content_Type": "application/json", **more})
 
+    def wait_for_volume(self, design, volume, seconds=20):
+        """Until a change of a file has been seen. Raises TimeoutError."""
+        deadline = time.monotonic() + seconds
+        while abs((got := self.quote(design)["volume"]) - volume) > 1e-6:
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"{got}, not {volume}")
+            time.sleep(0.02)
+
     def quote(self, design, values=None, **order):
         """The quote. Raises AssertionError where there is none."""
         answer = self.post(f"/designs/{design}/quote",
