@@ -17,11 +17,4 @@ std::uint64_t control_group_memory(const std::string& root = "");
 // The machine's memory, or that limit if it is less [bytes]; 0: unknown.
 std::uint64_t machine_memory();
 
-// The memory that this process takes now [bytes]; 0: unknown.
-std::uint64_t resident_memory();
-
-// The address space that this process may write to: what limits on data count
-// [bytes]; 0: unknown.
-std::uint64_t writable_memory();
-
 }  // namespace lamina::cli

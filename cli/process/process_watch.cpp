@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "base/process_memory.h"
 #include "cli/process/machine_memory.h"
 
 namespace lamina::cli {

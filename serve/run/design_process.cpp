@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <utility>
@@ -17,6 +16,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "base/process_memory.h"
 #include "compiler/compile.h"
 
 namespace lamina::serve {
@@ -102,32 +102,23 @@ void close_all_but(std::set<int> kept) {
   ::close_range(next, ~0U, 0);
 }
 
-// Memory that this process may write to, now [bytes].
-std::uint64_t writable_bytes() {
-  std::uint64_t size = 0;
-  std::uint64_t data = 0;
-  std::ifstream pages("/proc/self/statm");
-  pages >> size >> size >> size >> size >> size >> data;
-  return data * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
-// Lets this process take so many bytes more, if it may.
+// Lets this process have so many bytes that it may write to, if it may.
 void limit_memory(std::uint64_t most_bytes) {
-  if (most_bytes == 0) return;
   rlimit limit{};
   ::getrlimit(RLIMIT_DATA, &limit);
-  limit.rlim_cur =
-      std::min<rlim_t>(limit.rlim_max, writable_bytes() + most_bytes);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, most_bytes);
   ::setrlimit(RLIMIT_DATA, &limit);
 }
 
 // What the process of a design does.
 class DesignLoop {
  public:
-  DesignLoop(const DesignProcess::Options& options, int commands, int output)
+  DesignLoop(const DesignProcess::Options& options, int commands, int output,
+             std::uint64_t most_writable)
       : options_(options),
         commands_(commands),
         output_(output),
+        most_writable_(most_writable),
         temporary_files_(options.temporary_files.file_access()),
         design_(options.request, temporary_files_) {}
 
@@ -204,7 +195,7 @@ class DesignLoop {
             ::close(commands_);
             // Else the pipes of the others would end with this one.
             for (const Run& other : runs_) ::close(other.output.descriptor());
-            limit_memory(options_.most_bytes);
+            if (most_writable_ > 0) limit_memory(most_writable_);
             if (file >= 0) ::dup2(file, STDOUT_FILENO);
             options_.work.run(design_, run.command, run.output.descriptor());
           },
@@ -221,6 +212,7 @@ class DesignLoop {
   const DesignProcess::Options& options_;
   const int commands_;
   const int output_;
+  const std::uint64_t most_writable_;  // of a run [bytes]; 0: no limit
   // Its own: another thread may have held those of the server when this process
   // was copied.
   TemporaryFiles temporary_files_;
@@ -266,6 +258,9 @@ DesignProcess::DesignProcess(const Options& options) {
   }
   output_ = OpenFile(ends[0]);
   const OpenFile input(ends[1]);
+  // A copy of a process that is shut in cannot look at itself.
+  const std::uint64_t most_writable =
+      options.most_bytes == 0 ? 0 : writable_memory() + options.most_bytes;
   constexpr unsigned kAnyTime = ~0U >> 1U;  // it waits most of the time
   process_ = std::make_unique<ChildProcess>(
       [&](const ChildOutput& output) {
@@ -276,7 +271,9 @@ DesignProcess::DesignProcess(const Options& options) {
           kept.insert(folder);
         }
         close_all_but(std::move(kept));
-        DesignLoop(options, other.descriptor(), input.descriptor()).run();
+        DesignLoop(options, other.descriptor(), input.descriptor(),
+                   most_writable)
+            .run();
       },
       kAnyTime);
 }

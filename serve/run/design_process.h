@@ -62,8 +62,8 @@ class DesignProcess {
     TemporaryFiles& temporary_files;
     std::size_t evaluation_stack = 0;  // bytes
     unsigned most_seconds = 0;         // of processor time, for one run
-    // Of memory, beyond what the process of the design has, for one run; 0: as
-    // much as that may take.
+    // Of memory, beyond what the caller has, for one run and its design; 0: as
+    // much as the caller may take.
     std::uint64_t most_bytes = 0;
   };
 

@@ -53,5 +53,58 @@ const std::map<std::string, std::string> kMayTouch = {
     {"cli/process/openscad.cpp", "runs openscad; refused with --root"},
     {"cli/commands/watch.cpp", "--watch; refused with --root"},
     {"serve/run/file_watcher.cpp", "the same, the studio's and the service's"},
-    {"serve/run/design_process.cpp", "/proc/self/statm"},
     {"serve/http/listener.cpp", "the Unix socket that the user serves on"},
+    {"cli/commands/studio.cpp",
+     "its cookie, and a browser; refused with --root"},
+    {"cli/process/streams.cpp", "stands in for streams that are closed"},
+    {"cli/report/run_report.cpp", "/proc/self/status"},
+    {"base/process_memory.cpp", "/proc/self/statm"},
+    {"cli/process/machine_memory.cpp", "/proc and /sys"},
+    {"cli/pages/main.cpp", "another program, of the build"},
+};
+
+std::string without_comments(const std::string& line) {
+  return line.substr(0, line.find("//"));
+}
+
+TEST(Files, AreOpenedInOnePlace) {
+  std::map<std::string, bool> is_needed;
+  for (const char* folder : {"base", "plane", "parser", "csg", "ldni", "slicer",
+                             "compiler", "serve", "api", "cli"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") continue;
+      const std::string file = fs::relative(entry.path(), kRoot).string();
+      std::ifstream text(entry.path());
+      std::string line;
+      for (int number = 1; std::getline(text, line); ++number) {
+        if (!std::regex_search(without_comments(line), kTouch)) continue;
+        is_needed[file] = true;
+        EXPECT_TRUE(kMayTouch.contains(file))
+            << file << ":" << number << ": " << line
+            << "\ntouches files; go through base/file/file_access.h";
+      }
+    }
+  }
+  for (const auto& [file, reason] : kMayTouch) {
+    EXPECT_TRUE(is_needed[file]) << file << " needs no place on the list";
+  }
+}
+
+// A default of "all files" is for tests and for other programs.
+TEST(Files, TheProgramHandsOnWhatItMayUse) {
+  const std::regex unconfined(R"(\bkAllFiles\b|\bFileAccess\(\))");
+  for (const char* folder : {"compiler", "serve", "cli"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      std::ifstream text(entry.path());
+      std::string line;
+      while (std::getline(text, line)) {
+        EXPECT_FALSE(std::regex_search(line, unconfined))
+            << entry.path() << line;
+      }
+    }
+  }
+}
+
+}  // namespace
