@@ -79,4 +79,11 @@ std::uint64_t memory_of_children();
 double seconds_of_children();
 double thread_seconds_of_children();
 
+// The memory that this process takes now [bytes]; 0: unknown.
+std::uint64_t resident_memory();
+
+// The address space that this process may write to: what limits on data count
+// [bytes]; 0: unknown.
+std::uint64_t writable_memory();
+
 }  // namespace lamina

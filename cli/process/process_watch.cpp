@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "base/process_memory.h"
+#include "base/child_process.h"
 #include "cli/process/machine_memory.h"
 
 namespace lamina::cli {

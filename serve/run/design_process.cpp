@@ -16,7 +16,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "base/process_memory.h"
 #include "compiler/compile.h"
 
 namespace lamina::serve {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "base/process_memory.h"
+#include "base/child_process.h"
 #include "cli/options/common_options.h"
 #include "cli/process/machine_memory.h"
 #include "cli/process/process_watch.h"
