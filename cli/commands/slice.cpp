@@ -35,6 +35,7 @@ constexpr std::string_view kCommonHelp =
 Usage:
   lamina DESIGN... [-o FILE] [OPTION]...  slice .scad, .csg, meshes, CAD files
   lamina studio DESIGN                    change it in a browser, as it prints
+  lamina serve --root FOLDER              quote its designs to other programs
   lamina batch DESIGN --table T -o NAMES  make a piece for every row of a table
   lamina plate DESIGN... -o PLATES        lay many pieces on plates
   lamina orient DESIGN                    find how it should lie
@@ -60,8 +61,7 @@ Output:
                         .svg             polygons per layer, or a 2D design
                         .png             a picture, or images in a folder
                         .sl1             images for Prusa's resin printers
-                        .goo .ctb        images for printers of Elegoo, ChiTuBox
-                        .zip .nanodlp    images for printers with NanoDLP
+                        .goo .ctb .zip   images for Elegoo, ChiTuBox, NanoDLP
                         .slices.3mf      a stack of slices
                         .layers.json     layers as JSON, in full precision
                         .csg .echo .ast .param  tree, echoes, syntax, parameters

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/file/output_digest.h"
@@ -31,6 +33,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using serve::FrameKind;
+
+// An answer is no longer than this: images of the largest panels have less.
+constexpr rlim_t kMostBytes = 256 << 20;
 
 // Ends the process where nobody reads: the order has been given up.
 void send_frame(int output, FrameKind kind, std::string_view bytes) {
@@ -171,6 +176,9 @@ void OrderWork::take_design(compiler::Compilation& design, int output) {
 
 void OrderWork::run(compiler::Compilation& design,
                     const serve::Command& command, int output) {
+  const rlimit limit{kMostBytes, kMostBytes};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  ::signal(SIGXFSZ, SIG_IGN);  // a write fails instead, which is reported
   const Job job = job_of(command);
   const Order order = read_order(job.order);
   compiler::Request request =
