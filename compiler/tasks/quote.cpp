@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 Json values_json(const ast::Program& program) {
   Json values = Json::object();
   const Json file = Json::parse(parameters_json(program, ""));
+  if (!file.contains("parameters")) return values;
   for (const Json& parameter : file["parameters"]) {
     values[parameter["name"].get<std::string>()] = parameter["initial"];
   }
