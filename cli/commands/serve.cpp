@@ -55,6 +55,7 @@ at /openapi.json.
   --printer P, --material M, --metal M, --price PRICES
                     what pieces are made with, unless an order says
   --min-feature MM  list walls and gaps thinner than this
+  --no-strict       make pieces with warnings, too
   --max-time S      processor time of one order [10]
   --max-memory SIZE memory of all orders together [80%]
 
@@ -122,6 +123,7 @@ class ServeCommand : public Command {
     options.whole("--queue", queue_, 0, kMostQueued);
     add_print_options(options, request_);
     add_machine_options(options, request_);
+    add_strict_options(options, request_);
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
   }

@@ -408,6 +408,13 @@ void add_print_options(OptionList& options, compiler::Request& request) {
       [&rules](const std::string& words) { add_findings(words, rules); });
 }
 
+void add_strict_options(OptionList& options, compiler::Request& request) {
+  const Option strict =
+      options.flag("--strict", [&request] { request.output.is_strict = true; });
+  options.flag("--no-strict", [&request] { request.output.is_strict = false; })
+      .excludes(strict);
+}
+
 void add_output_options(OptionList& options, compiler::Request& request,
                         OutputOptions& output) {
   options.name("--export-format", "format", output.export_format);
@@ -417,10 +424,7 @@ void add_output_options(OptionList& options, compiler::Request& request,
                                           ? slicer::CliEncoding::kAscii
                                           : slicer::CliEncoding::kBinary;
       });
-  const Option strict =
-      options.flag("--strict", [&request] { request.output.is_strict = true; });
-  options.flag("--no-strict", [&request] { request.output.is_strict = false; })
-      .excludes(strict);
+  add_strict_options(options, request);
   add_machine_options(options, request);
   options.choice("--mirror", {"x", "y", "xy"},
                  [&request](const std::string& axes) {

@@ -36,6 +36,9 @@ void add_machine_options(OptionList& options, compiler::Request& request);
 // `options`.
 void add_print_options(OptionList& options, compiler::Request& request);
 
+// Binds --strict and --no-strict, which add_output_options() has, too.
+void add_strict_options(OptionList& options, compiler::Request& request);
+
 // Adds the options that say what is written and how: those that --help calls
 // Output, save -o, and --report, --layers and those of the print. `request` and
 // `output` outlive the list.

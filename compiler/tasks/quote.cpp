@@ -32,7 +32,9 @@ Json values_json(const ast::Program& program) {
 void add_price(Json& json, const slicer::Material& material, double price) {
   if (price == 0) return;
   json["price"] = price;
-  json["currency"] = material.price->currency;
+  if (!material.price->currency.empty()) {
+    json["currency"] = material.price->currency;
+  }
 }
 
 void add_machine(Json& json, const Compilation& compilation,

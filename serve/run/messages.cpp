@@ -36,7 +36,7 @@ const char* name_of(Severity severity) {
 Json message_json(const Diagnostic& message, std::string text,
                   const std::string& folder) {
   Json json = {{"severity", name_of(message.severity)},
-               {"message", message.message},
+               {"message", with_display_paths(message.message)},
                {"text", std::move(text)}};
   if (message.range.is_written()) {
     const Source& source = *message.range.source;
@@ -85,9 +85,16 @@ Json parameters_of(const ast::Program& program) {
   return parameters;
 }
 
-bool run_caught(compiler::Compilation& c, const std::function<bool()>& work) {
+Ending run_caught(compiler::Compilation& c, const std::function<bool()>& work) {
+  const auto report_own = [&c](const char* what) {
+    c.diagnostics.error({},
+                        fmt::format("internal error, please report: {}", what));
+    return Ending::kBroken;
+  };
   try {
-    return work();
+    return work() ? Ending::kDone : Ending::kFailed;
+  } catch (const InternalError& error) {
+    return report_own(error.what());
   } catch (const Error& error) {
     if (!compiler::is_among(c.diagnostics, error.diagnostic())) {
       c.diagnostics.report(error.diagnostic());
@@ -95,10 +102,9 @@ bool run_caught(compiler::Compilation& c, const std::function<bool()>& work) {
   } catch (const std::bad_alloc&) {
     c.diagnostics.error({}, "out of memory");
   } catch (const std::exception& error) {
-    c.diagnostics.error(
-        {}, fmt::format("internal error, please report: {}", error.what()));
+    return report_own(error.what());
   }
-  return false;
+  return Ending::kFailed;
 }
 
 }  // namespace lamina::serve

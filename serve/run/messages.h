@@ -26,9 +26,13 @@ nlohmann::ordered_json messages_json(const std::vector<Diagnostic>& messages,
 // word of its widget, if it has one.
 nlohmann::ordered_json parameters_of(const ast::Program& program);
 
-// Does the work of a run and reports what it throws. Returns what the work
-// returns, or false where it throws.
-bool run_caught(compiler::Compilation& compilation,
-                const std::function<bool()>& work);
+// How the work of a run ended; broken is our own fault, not the design's.
+enum class Ending { kDone, kFailed, kBroken };
+
+// Does the work of a run and reports what it throws.
+//
+// work  returns whether it is done
+Ending run_caught(compiler::Compilation& compilation,
+                  const std::function<bool()>& work);
 
 }  // namespace lamina::serve

@@ -158,12 +158,14 @@ OrderWork::OrderWork(compiler::Request base, serve::Names names,
 void OrderWork::take_design(compiler::Compilation& design, int output) {
   begin_ = design.begin;
   // Where it could not be read, the second time says why.
-  const bool is_read = design.is_read() || serve::run_caught(design, [&] {
-                         compiler::read_design(design);
-                         return true;
-                       });
+  if (!design.is_read()) {
+    serve::run_caught(design, [&] {
+      compiler::read_design(design);
+      return true;
+    });
+  }
   Json event;
-  if (is_read) {
+  if (design.is_read()) {
     Json parameters = serve::parameters_of(design.design.program);
     offer_.emplace(parameters);
     event["parameters"] = std::move(parameters);
@@ -199,18 +201,21 @@ void OrderWork::run(compiler::Compilation& design,
 void OrderWork::make(compiler::Compilation& c, const Job& job,
                      const Order& order, int output) const {
   std::optional<std::string> text;
-  serve::run_caught(c, [&] {
+  const serve::Ending ending = serve::run_caught(c, [&] {
     text = make_product(c, job.product);
     return text.has_value();
   });
   send_files(c, output);
-  if (!text) return send_answer(output, 422, {{"messages", messages_of(c)}});
+  if (ending != serve::Ending::kDone) {
+    const unsigned status = ending == serve::Ending::kBroken ? 500 : 422;
+    return send_answer(output, status, {{"messages", messages_of(c)}});
+  }
   Json head = head_of(c, job);
   head["key"] = key_of(c, job, order);
-  send_answer(output, 200, head);
   if (job.product == Product::kQuote) {
     send_frame(output, FrameKind::kEvent, *text);
   }
+  send_answer(output, 200, head);
 }
 
 // Equal for two answers only where all that they depend on is. Empty where a

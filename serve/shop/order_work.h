@@ -29,9 +29,10 @@ struct Job {
 // {"parameters": […]} as serve::parameters_of() lists them, or where it cannot
 // be read {"messages": […]}.
 //
-// Frames of a run: kFiles, kAnswer with "200 {…}" and {"type", "name", "key"},
-// and of a quote kEvent with its text; other products go to standard output.
-// Where it fails, kAnswer alone: "422 {"messages": […]}", 500 or 503.
+// Frames of a run: kFiles; of a quote kEvent with its text, while other
+// products go to standard output; and last, when all is there, kAnswer with
+// "200 {…}" and
+// {"type", "name", "key"}. Where it fails: "422 {"messages": […]}", 500 or 503.
 class OrderWork : public serve::DesignWork {
  public:
   // base      of the service, with the design's path

@@ -46,6 +46,18 @@ constexpr std::string_view kPagePolicy =
 constexpr const char* kOverloaded = "Too many orders are waiting.";
 constexpr const char* kEnded = "The process of this order was ended.";
 
+// Why a run has made nothing.
+const char* words_of(unsigned status) {
+  switch (status) {
+    case 422:
+      return "The design fails with these values.";
+    case 500:
+      return "This is a fault of lamina: please report it.";
+    default:
+      return kEnded;
+  }
+}
+
 Response content(std::string_view type, std::string body) {
   Response response;
   response.type = type;
@@ -210,7 +222,7 @@ void Shop::answer_route(const Match& match, const Request& request,
       return send(*reply, &route, content(route.type, "alive\n"));
     case Action::kReady:
       return send(*reply, &route,
-                  unread_ > 0 || is_ending_
+                  unread_ > 0 || is_ending_ || is_full()
                       ? problem(503, "No orders are taken now.")
                       : content(route.type, "ready\n"));
     case Action::kMetrics:
@@ -271,7 +283,7 @@ void Shop::take_order(const Match& match, const Request& request,
     return send(*reply, &route,
                 problem(429, "Too many orders of this client are waiting."));
   }
-  if (tickets_.size() >= options_.queue + options_.workers) {
+  if (is_full()) {
     return send(*reply, &route, problem(503, kOverloaded));
   }
   const std::uint64_t number = ticket.number;
@@ -398,11 +410,9 @@ void Shop::finish(Ticket& ticket) {
       parse_number(ticket.answer.substr(0, blank)).value_or(500));
   const std::string head = ticket.answer.substr(blank + 1);
   if (status != 200) {
-    const Json messages = Json::parse(head)["messages"];
     if (status != 422) metrics_.count_ended(status == 500 ? "crash" : "kill");
-    return end_ticket(
-        ticket,
-        problem(status, "The design fails with these values.", messages));
+    return end_ticket(ticket, problem(status, words_of(status),
+                                      Json::parse(head)["messages"]));
   }
   const Answer answer = take_answer(ticket, head);
   Response response = response_of(*ticket.route, answer, ticket.if_none_match);

@@ -101,6 +101,9 @@ class Shop {
   void end_ticket(Ticket& ticket, http::Response response);
   void forget(Tickets::iterator ticket);
   void send(http::Reply& reply, const Route* route, http::Response response);
+  bool is_full() const {
+    return tickets_.size() >= options_.queue + options_.workers;
+  }
   http::Response metrics() const;
 
   const ShopOptions options_;

@@ -66,7 +66,8 @@ class ShownChoice {
       : c_(c), choice_(choice), form_(form), output_(output) {}
 
   void show() {
-    const bool is_well = serve::run_caught(c_, [&] { return make(); });
+    const bool is_well =
+        serve::run_caught(c_, [&] { return make(); }) == serve::Ending::kDone;
     send_files();
     send_messages();
     send_frame(
@@ -201,7 +202,8 @@ void show_choice(compiler::Compilation& compilation, const Choice& choice,
 
 void write_output(compiler::Compilation& c, const Choice& choice, int output) {
   c.request.output.path = "-";
-  if (!serve::run_caught(c, [&] { return compiler::compile(c); })) {
+  if (serve::run_caught(c, [&] { return compiler::compile(c); }) !=
+      serve::Ending::kDone) {
     send_messages(c, output);
     return;
   }
@@ -211,7 +213,7 @@ void write_output(compiler::Compilation& c, const Choice& choice, int output) {
 
 void write_source(compiler::Compilation& c, const Choice& choice, int output) {
   const std::string& path = c.request.design.path;
-  const bool is_done = serve::run_caught(c, [&] {
+  const serve::Ending ending = serve::run_caught(c, [&] {
     if (!c.is_read()) compiler::read_design(c);
     const SourceEdit edit = edit_source(c.design.program, choice.values,
                                         c.design.language, c.diagnostics);
@@ -232,7 +234,7 @@ void write_source(compiler::Compilation& c, const Choice& choice, int output) {
     send_answer(output, 200, text_of({{"written", title_of(c)}}));
     return true;
   });
-  if (!is_done) send_messages(c, output);
+  if (ending != serve::Ending::kDone) send_messages(c, output);
 }
 
 }  // namespace lamina::studio
