@@ -162,11 +162,14 @@ std::optional<Price> parse_price(std::string_view text) {
                std::string(unit)};
 }
 
-std::vector<Material> known_materials() {
-  std::vector<Material> materials;
-  for (const std::string_view profile : detail::kMaterialProfiles) {
-    materials.push_back(read_material(json::parse(profile)));
-  }
+const std::vector<Material>& known_materials() {
+  static const std::vector<Material> materials = [] {
+    std::vector<Material> all;
+    for (const std::string_view profile : detail::kMaterialProfiles) {
+      all.push_back(read_material(json::parse(profile)));
+    }
+    return all;
+  }();
   return materials;
 }
 

@@ -78,8 +78,9 @@ struct Material {
   bool is_metal() const { return density > 2.5; }
 };
 
-// The materials that lamina knows, in alphabetical order of their names.
-std::vector<Material> known_materials();
+// The materials that lamina knows, in alphabetical order of their names. They
+// are read when they are first asked for.
+const std::vector<Material>& known_materials();
 
 // As find_printer().
 Material find_material(const std::string& name_or_file,
