@@ -56,7 +56,7 @@ bool apply_parameters(const DesignRequest& request, const FileAccess& access,
                       LoadedDesign& design, Diagnostics& diagnostics) {
   const auto apply = [&](const ParameterSet& set) {
     return apply_parameter_set(set, design.program, design.language,
-                               diagnostics);
+                               diagnostics, request.misfit);
   };
   if (request.parameters) return apply(*request.parameters);
   if (request.parameter_file.empty()) return true;

@@ -36,6 +36,8 @@ struct DesignRequest {
   std::string parameter_set;   // -P
   // The set itself; no file is read for it then.
   std::optional<ParameterSet> parameters;
+  // What values of that set are that the design does not get as they are.
+  Misfit misfit = Misfit::kWarning;
   std::string language = "auto";  // or "2021", "2026"; see load()
   std::uint32_t seed = 0;
   std::uint32_t max_depth = csg::EvaluateOptions().max_depth;

@@ -10,19 +10,41 @@
 // nothing of a compiler but C++20. Until version 1.0 it may change with the
 // second number of the version.
 //
-// A fault of the design or of a file is thrown as std::runtime_error, whose
-// text is what the program lamina prints: a message with its place, its line
-// and carets below it. What the program refuses is refused here, too, in the
-// names of this header.
+// A fault of the design, of a file or of options is thrown as DesignError. What
+// the program lamina refuses is refused here, too, in the names of this header.
 
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lamina {
+
+// A place in a text, and what is said of it.
+struct Remark {
+  std::string message;  // "called from module 'prong'"
+  std::string file;     // empty: no place is known
+  unsigned line = 0;    // from 1
+  unsigned column = 0;  // from 1, in bytes
+};
+
+// Its text is what the program prints: a message with its place, its line and
+// carets below it, for each error.
+class DesignError : public std::runtime_error {
+ public:
+  DesignError(const std::string& text, Remark first,
+              std::vector<Remark> its_calls = {})
+      : std::runtime_error(text),
+        fault(std::move(first)),
+        calls(std::move(its_calls)) {}
+
+  Remark fault;               // the first error
+  std::vector<Remark> calls;  // that led to it, the innermost first
+};
 
 struct Point {
   double x = 0;  // [mm]
@@ -52,6 +74,19 @@ struct Parameter {
   std::string choices;  // likewise: `[0.25 : 0.25 : 3]`; empty: any value
   std::string description;  // empty: none
   std::string group;        // empty: none
+};
+
+// Values of parameters, by name, in the notation of Parameter, but texts
+// without quotes.
+using ParameterValues = std::vector<std::pair<std::string, std::string>>;
+
+// A support that was added.
+struct Support {
+  Point contact;            // the middle of its tip
+  double z = 0;             // likewise [mm]
+  double tip = 0;           // its diameter there [mm]
+  bool is_on_bed = true;    // false: it stands on the part or another support
+  std::string source_line;  // of what it holds, as in ThinPlace
 };
 
 // A wall or gap that is too thin, in one layer or through several.
@@ -128,10 +163,27 @@ struct DesignOptions {
   std::vector<std::string> definitions;  // of -D: "size=57"
   std::string parameter_file;            // of -p; empty: none
   std::string parameter_set;             // of -P, in that file
-  double chordal_error = 0;              // [mm]; 0: $fa and $fs decide
+  // Instead of a parameter set. A value that the customizer does not offer is
+  // an error.
+  ParameterValues values;
+  double chordal_error = 0;  // [mm]; 0: $fa and $fs decide
   double scale = 1;
   std::string axis = "z";  // direction of building: z, x, y, -x, -y, -z, auto
   bool place_on_bed = false;  // the lowest point goes to height 0
+  // Supports are added: light, medium, heavy, the diameter of their tips in mm,
+  // or auto: that of the material. Empty: none.
+  std::string supports;
+  bool has_raft = false;   // joins their feet
+  bool has_sprue = false;  // sprues are added
+  double hollow = 0;       // thickness of walls [mm]; 0: solid
+  // That supports, drains and sprues are made for [mm].
+  double layer_thickness = 0.05;
+  // Names of `lamina printers` and `lamina materials`, or profiles; empty:
+  // none.
+  std::string printer;
+  std::string material;
+  std::string metal;
+  std::vector<std::string> prices;  // of these two: "62.5/g", "60 EUR/l"
   // What OpenSCAD the design is written for: "2021", "2026", or "auto": 2026 if
   // 2021.01 cannot parse it.
   std::string language = "auto";
@@ -139,6 +191,8 @@ struct DesignOptions {
   // Limits: nested calls, and parts of the design. More is an error.
   unsigned max_depth = 300000;
   unsigned max_leaves = 10000000;
+  // Of the caller's stack, that evaluation may take [bytes]. More is an error.
+  std::size_t stack = std::size_t{6} << 20;
   // For designs that strangers write. With a root, files are read and written
   // in this folder only, links resolved; in `readable` they are read, too.
   std::string root;  // empty: everywhere
@@ -166,13 +220,15 @@ struct SliceOptions {
   double max_layer = 0;         // [mm]; 0: 4 times layer_thickness
   std::vector<double> heights;  // not empty: sections at exactly these
   double tolerance = 0.001;     // [mm]; 0 keeps all vertices
-  double compensation = 0;      // [mm] inwards; negative: outwards
-  unsigned threads = 0;         // 0: as many as the machine has
+  // [mm] inwards; negative: outwards; 0: that of the material.
+  double compensation = 0;
+  unsigned threads = 0;  // 0: as many as the machine has
 };
 
 // How layers are drawn, for formats of images.
 struct ImageOptions {
-  std::string printer;  // whose panel: a name or a profile; empty: the format's
+  // Whose panel: a name or a profile; empty: the design's, or the format's.
+  std::string printer;
   bool mirror_x = false;  // turned over
   bool mirror_y = false;
 };
@@ -181,8 +237,8 @@ struct ImageOptions {
 // threads at a time if need be.
 class Design {
  public:
-  // Reads a .scad or .csg file. Evaluation takes up to 6 MiB of the caller's
-  // stack. Throws where the design has errors, is empty, or is flat.
+  // Reads a .scad or .csg file. Throws where the design has errors, is empty,
+  // or is flat.
   static Design from_file(const std::string& path,
                           const DesignOptions& options = {});
   // Reads a text instead. Messages call it `name`, and it finds its files from
@@ -190,6 +246,10 @@ class Design {
   static Design from_text(const std::string& text,
                           const DesignOptions& options = {},
                           const std::string& name = "design.scad");
+
+  // The design with other values, read and evaluated anew; those that are not
+  // named stay as they are.
+  Design with(const ParameterValues& values) const;
 
   Design(Design&&) noexcept;
   Design& operator=(Design&&) noexcept;
@@ -222,6 +282,17 @@ class Design {
   // What `lamina inspect` says of the layers as they are written.
   Inspection inspect(const SliceOptions& options = {},
                      const InspectOptions& wanted = {}) const;
+
+  // What the piece weighs, costs and takes, and what is wrong with it, as JSON:
+  // a quote of docs/serve.md.
+  std::string report(const SliceOptions& options = {},
+                     const InspectOptions& wanted = {}) const;
+
+  // The page of `lamina view -o x.html`, which shows layers and solid.
+  std::string page(const SliceOptions& options = {}) const;
+
+  // What was added, in no order.
+  std::vector<Support> supports() const;
 
   // What the customizer offers, in the order of the design, with the values of
   // the design or of the parameter set.

@@ -254,17 +254,18 @@ Fitted fit(std::string_view text, const ast::Expr& own,
 class SetApplier {
  public:
   SetApplier(const ParameterSet& set, ast::Program& program, Language language,
-             Diagnostics& diagnostics)
+             Diagnostics& diagnostics, Misfit misfit)
       : set_(set),
         program_(program),
         arena_(*program.arena),
         customizer_(Customizer::read(program)),
         language_(language),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics),
+        is_strict_(misfit == Misfit::kError) {}
 
   // Sets values variable by variable, as OpenSCAD does: that decides which are
   // set before one fails. False where a text is not a value of a parameter that
-  // wants true or false.
+  // wants true or false, or where misfits are errors.
   bool apply() {
     std::vector<const ast::Statement*> statements(program_.statements.begin(),
                                                   program_.statements.end());
@@ -287,7 +288,7 @@ class SetApplier {
     program_.statements =
         arena_.copy(std::span<const ast::Statement* const>(statements));
     warn_of_unknown(entries, names);
-    return is_good;
+    return is_good && !(is_strict_ && has_misfits_);
   }
 
  private:
@@ -303,7 +304,9 @@ class SetApplier {
     const auto type = ast::type_of(own);
     if (language_ == Language::k2021 && type != ast::ValueType::kAny) {
       fitted.value = read_value(entry.text, type, arena_);
-      if (!fitted.value && type == ast::ValueType::kBool) return false;
+      if (!fitted.value && type == ast::ValueType::kBool && !is_strict_) {
+        return false;
+      }
     }
     const bool is_lost =
         fitted.value == nullptr && (rule || !is_own(entry, own));
@@ -327,9 +330,15 @@ class SetApplier {
 
   void warn(const ParameterValue& entry, const ast::Statement& statement,
             bool has_rule, const Fitted& fitted) {
-    std::string text =
-        fmt::format("parameter {} = {} of the set {}", entry.name, entry.text,
-                    fault_of(entry, statement, has_rule, fitted));
+    has_misfits_ = true;
+    const std::string fault = fault_of(entry, statement, has_rule, fitted);
+    if (is_strict_) {
+      diagnostics_.error(statement.range, fmt::format("{} = {} {}", entry.name,
+                                                      entry.text, fault));
+      return;
+    }
+    std::string text = fmt::format("parameter {} = {} of the set {}",
+                                   entry.name, entry.text, fault);
     if (fitted.value == nullptr) {
       text += "; it keeps its own value";
     } else if (!entry.is_single) {
@@ -362,11 +371,15 @@ class SetApplier {
                        std::span<const std::string_view> names) {
     Guesses guesses;
     for (const auto& [name, entries] : unknown) {
-      diagnostics_.own_warning(
+      has_misfits_ = true;
+      Diagnostic misfit{
+          is_strict_ ? Severity::kError : Severity::kWarning,
           {},
           fmt::format("the set has '{}', the design has no such variable",
-                      short_name(name)),
-          hint_of(guesses.did_you_mean(name, names)));
+                      short_name(name))};
+      misfit.hints = hint_of(guesses.did_you_mean(name, names));
+      misfit.audience = Audience::kTerminal;
+      diagnostics_.report(std::move(misfit));
     }
   }
 
@@ -389,13 +402,19 @@ class SetApplier {
   const Customizer customizer_;
   Language language_;
   Diagnostics& diagnostics_;
+  const bool is_strict_;
+  bool has_misfits_ = false;
 };
 
 }  // namespace
 
 bool apply_parameter_set(const ParameterSet& set, ast::Program& program,
-                         Language language, Diagnostics& diagnostics) {
-  if (SetApplier(set, program, language, diagnostics).apply()) return true;
+                         Language language, Diagnostics& diagnostics,
+                         Misfit misfit) {
+  if (SetApplier(set, program, language, diagnostics, misfit).apply()) {
+    return true;
+  }
+  if (misfit == Misfit::kError) return false;
   diagnostics.error(
       {},
       "Cannot apply Parameter Set 'conversion of data to type \"b\" failed'");

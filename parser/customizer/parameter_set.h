@@ -84,11 +84,15 @@ class ParameterSets {
   std::vector<Set> sets_;
 };
 
+// What a value is that the design does not get as the set has it.
+enum class Misfit : std::uint8_t { kWarning, kError };
+
 // Sets the variables of `program` to the values of `set`.
 //
 // returns  false where a value cannot be used; that is reported, and the values
 //          before it stay set
 bool apply_parameter_set(const ParameterSet& set, ast::Program& program,
-                         Language language, Diagnostics& diagnostics);
+                         Language language, Diagnostics& diagnostics,
+                         Misfit misfit = Misfit::kWarning);
 
 }  // namespace lamina

@@ -39,7 +39,7 @@ template <typename Make>
 std::string fault_of(const Make& make) {
   try {
     make();
-  } catch (const std::runtime_error& error) {
+  } catch (const lamina::DesignError& error) {
     return error.what();
   }
   return "nothing was thrown";
@@ -116,6 +116,67 @@ TEST(Design, FaultsAreThrownWithTheirPlace) {
       std::string::npos);
   EXPECT_NE(fault_of([] { Design::from_text("echo(1);"); }).find("is empty"),
             std::string::npos);
+}
+
+TEST(Design, FaultsHaveTheirPlaceAndCallsAsData) {
+  try {
+    Design::from_text(
+        "module inner(n) {\n  assert(n < 3, \"many\");\n}\n"
+        "module outer() inner(4);\nouter();",
+        {}, "a.scad");
+    FAIL() << "nothing was thrown";
+  } catch (const lamina::DesignError& error) {
+    EXPECT_NE(error.fault.message.find("many"), std::string::npos);
+    EXPECT_EQ(error.fault.file, "a.scad");
+    EXPECT_EQ(error.fault.line, 2U);
+    EXPECT_EQ(error.fault.column, 3U);
+    ASSERT_GE(error.calls.size(), 2U);
+    EXPECT_EQ(error.calls[error.calls.size() - 2].line, 4U);
+    EXPECT_EQ(error.calls.back().line, 5U);
+  }
+}
+
+TEST(Design, ValuesAreThoseThatTheCustomizerOffers) {
+  const Design plate = Design::from_text(
+      "a = 1; // [1 : 5]\nb = \"x\"; // [x, y]\ncube([a, b == \"y\" ? 2 : 1, "
+      "1]);");
+  const auto area_of = [](const Design& design) {
+    return lamina::area(design.slice(at_heights({0.5}))[0]);
+  };
+  const Design other = plate.with({{"a", "3"}});
+  EXPECT_NEAR(area_of(other), 3, 1e-12);
+  EXPECT_NEAR(area_of(other.with({{"b", "y"}})), 6, 1e-12);
+  EXPECT_EQ(other.parameters()[0].value, "3");
+  for (const auto& [name, value] : lamina::ParameterValues{
+           {"a", "9"}, {"a", "wide"}, {"b", "z"}, {"c", "1"}}) {
+    EXPECT_THROW(plate.with({{name, value}}), lamina::DesignError)
+        << name << " = " << value;
+  }
+}
+
+TEST(Design, ReportsWhatThePieceWeighs) {
+  DesignOptions options;
+  options.metal = "silver-925";
+  options.prices = {"2 EUR/g"};
+  const Design cube = Design::from_text("cube(10);", options);
+  const std::string report = cube.report(layers_of(0.5));
+  EXPECT_NE(report.find("\"layers\":20,\"layer\":0.5,"), std::string::npos)
+      << report;
+  EXPECT_NE(report.find("\"currency\":\"EUR\""), std::string::npos) << report;
+}
+
+TEST(Design, SupportsStandOnTheBed) {
+  DesignOptions options;
+  options.supports = "0.4";
+  const Design slab =
+      Design::from_text("translate([0, 0, 5]) cube([6, 6, 1]);", options);
+  ASSERT_FALSE(slab.supports().empty());
+  for (const lamina::Support& support : slab.supports()) {
+    EXPECT_TRUE(support.is_on_bed);
+    EXPECT_DOUBLE_EQ(support.tip, 0.4);
+    EXPECT_DOUBLE_EQ(support.z, 5);
+  }
+  EXPECT_LT(slab.slice(layers_of(0.1)).front().bottom, 1);
 }
 
 TEST(Design, AFaultInAUsedFileIsThrown) {
