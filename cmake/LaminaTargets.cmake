@@ -14,12 +14,17 @@ target_compile_options(lamina_options INTERFACE
   # Contraction would let one formula give two values in two places; the
   # samplers rely on equal bits for equal expressions.
   -ffp-contract=off
+  # No other library may put functions in the place of ours, so that calls stay
+  # as direct as in a program.
+  -fno-semantic-interposition
   # What g++ 12 says of its own library once it has inlined it, where nothing is
   # wrong; the sanitizers and valgrind look for such mistakes themselves.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>)
 target_include_directories(lamina_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(lamina_options INTERFACE lamina_hardening)
 set(CMAKE_CXX_EXTENSIONS OFF)
+# The same objects make the program and what Python loads.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 # lamina_add_library(<name> [CHECKED] SOURCES … HEADERS … DEPENDS …)
 # makes the static library lamina_<name> with the alias lamina::<name>.
