@@ -23,7 +23,10 @@ install(FILES ${PROJECT_BINARY_DIR}/lamina.1.gz
         DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(DIRECTORY docs examples
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
-        PATTERN man EXCLUDE PATTERN cpp EXCLUDE)
+        PATTERN man EXCLUDE PATTERN cpp EXCLUDE PATTERN python EXCLUDE)
+install(DIRECTORY examples/python
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-lamina/examples
+        COMPONENT python)
 
 install(PROGRAMS scripts/cluster/submit
         DESTINATION ${CMAKE_INSTALL_DOCDIR}/scripts/cluster COMPONENT program)

@@ -1,4 +1,4 @@
-# Debian packages by CPack: lamina, lamina-cad and lamina-dev. What lies in them is said in
+# Debian packages by CPack: lamina, lamina-cad, lamina-dev and python3-lamina. What lies in them is said in
 # LaminaInstall.cmake; here is what Debian asks for beside it.
 
 set(CPACK_GENERATOR DEB)
@@ -14,7 +14,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
     WORLD_READ WORLD_EXECUTE)
 
-set(CPACK_COMPONENTS_ALL program cad development)
+set(CPACK_COMPONENTS_ALL program cad development python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -66,6 +66,28 @@ lamina reads a design of OpenSCAD and makes the layers of a 3D printer.
 This package holds the library for C++ programs, its header, its CMake package
 and an example.")
 
+# Built for the Python of this Debian alone. Modules of the program make texts.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-lamina)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+math(EXPR next_python "${Python3_VERSION_MINOR} + 1")
+string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  "lamina (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})"
+  "python3 (>= 3.${Python3_VERSION_MINOR})" "python3 (<< 3.${next_python})"
+  python3-numpy)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
+    "python3-matplotlib, python3-pandas, python3-shapely")
+# They compile the package for Python, and remove what was compiled.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst
+    ${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+"compiler from OpenSCAD designs to layers - Python 3 package
+lamina reads a design of OpenSCAD and makes the layers of a 3D printer.
+
+This package holds the module for Python 3: layers as arrays of numpy, weights,
+prices, and what would go wrong in the print.")
+
 # A reproducible build tells the date by SOURCE_DATE_EPOCH.
 string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(cmake/debian/changelog.in changelog.Debian @ONLY)
@@ -74,13 +96,14 @@ lamina_compress(${PROJECT_BINARY_DIR}/changelog.Debian changelog.Debian.gz)
 install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz
         DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/lamina
         COMPONENT program EXCLUDE_FROM_ALL)
-foreach(package IN ITEMS cad:cad dev:development)
+foreach(package IN ITEMS lamina-cad:cad lamina-dev:development
+                         python3-lamina:python)
   string(REPLACE ":" ";" package ${package})
   list(GET package 0 name)
   list(GET package 1 component)
   install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz
                 ${PROJECT_BINARY_DIR}/changelog.gz cmake/debian/copyright
-          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/lamina-${name}
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${name}
           COMPONENT ${component} EXCLUDE_FROM_ALL)
 endforeach()
 

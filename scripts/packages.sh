@@ -9,6 +9,7 @@ LAMINA_BUILD_PACKAGES=(
   libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
   libminizip-dev libpugixml-dev libxxhash-dev zlib1g-dev libopenmesh-dev
   libnanoflann-dev libboost-dev
+  python3-dev pybind11-dev
   libegl-dev libgl-dev libosmesa6-dev
 )
 
@@ -27,6 +28,7 @@ LAMINA_TEST_PACKAGES=(
   man-db bash-completion zsh fish locales
   nodejs ca-certificates
   nginx-light python3-jsonschema python3-prometheus-client strace systemd curl
+  python3-numpy python3-shapely python3-pandas python3-matplotlib mypy
 )
 
 # To test batches on a cluster (scripts/cluster/test), beside these.
