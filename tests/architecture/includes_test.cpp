@@ -105,8 +105,9 @@ const std::vector<std::string> kRooms = {"base",
                                          "slicer/dump",
                                          "compiler",
                                          "api/lamina",
-                                         "api",
                                          "compiler/tasks",
+                                         "api",
+                                         "api/python",
                                          "serve/http",
                                          "serve/run",
                                          "serve/shop",
@@ -259,6 +260,7 @@ TEST(Includes, PackagesKeepToTheirHomes) {
       {"OpenMesh/", {"csg/import/decimate_module.cpp"}},
       {"boost/", {"serve/http/beast_server.cpp"}},
       {"nanoflann", {"slicer/thickness/ball_finder.cpp"}},
+      {"pybind11/", {"api/python/"}},
   };
   for (const Include& include : includes_below(kProduct)) {
     for (const Home& home : homes) {
