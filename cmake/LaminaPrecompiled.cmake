@@ -30,6 +30,10 @@ foreach(kind IN ITEMS common checked tests)
     lamina_options fmt::fmt glm::glm)
   target_precompile_headers(lamina_precompiled_${kind}
                             PRIVATE ${precompiled_headers})
+  if(NOT kind STREQUAL "tests")  # as lamina_add_library() compiles
+    set_target_properties(lamina_precompiled_${kind}
+                          PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
 endforeach()
 target_compile_definitions(lamina_precompiled_checked
                            PRIVATE ${LAMINA_CHECKED_CONTAINERS})

@@ -14,27 +14,26 @@ target_compile_options(lamina_options INTERFACE
   # Contraction would let one formula give two values in two places; the
   # samplers rely on equal bits for equal expressions.
   -ffp-contract=off
-  # No other library may put functions in the place of ours, so that calls stay
-  # as direct as in a program.
-  -fno-semantic-interposition
+  # In what is loaded, no other library may put functions in the place of ours, so
+  # that calls stay as direct as in a program.
+  $<$<BOOL:$<TARGET_PROPERTY:POSITION_INDEPENDENT_CODE>>:-fno-semantic-interposition>
   # What g++ 12 says of its own library once it has inlined it, where nothing is
   # wrong; the sanitizers and valgrind look for such mistakes themselves.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>)
 target_include_directories(lamina_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(lamina_options INTERFACE lamina_hardening)
 set(CMAKE_CXX_EXTENSIONS OFF)
-# The same objects make the program and what Python loads.
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 # lamina_add_library(<name> [CHECKED] SOURCES … HEADERS … DEPENDS …)
 # makes the static library lamina_<name> with the alias lamina::<name>.
 # HEADERS are the folder's public headers. CHECKED libraries read what strangers
-# wrote (LaminaHardening).
+# wrote (LaminaHardening). The same objects make the program and what Python loads.
 function(lamina_add_library name)
   cmake_parse_arguments(ARG "CHECKED" ""
                         "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   add_library(lamina_${name} STATIC ${ARG_SOURCES})
   add_library(lamina::${name} ALIAS lamina_${name})
+  set_target_properties(lamina_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_sources(lamina_${name} PUBLIC FILE_SET HEADERS
                  BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
   target_link_libraries(lamina_${name}

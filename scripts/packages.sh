@@ -27,7 +27,7 @@ LAMINA_TEST_PACKAGES=(
   slic3r prusa-slicer lib3mf1 python3 python3-jsonschema chromium make
   man-db bash-completion zsh fish locales
   nodejs ca-certificates
-  nginx-light python3-jsonschema python3-prometheus-client strace systemd curl
+  nginx-light python3-prometheus-client strace systemd curl
   python3-numpy python3-shapely python3-pandas python3-matplotlib mypy
 )
 
