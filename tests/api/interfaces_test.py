@@ -58,7 +58,7 @@ class Interfaces(unittest.TestCase):
     def test_the_header_has_what_the_table_says(self):
         header = re.sub(r"//.*", "", read("api", "lamina", "design.h"))
         design = header[header.index("class Design {") :]
-        methods = set(re.findall(r"^  (?:static )?[\w:<>&,\s]*?(\w+)\(", design, re.M))
+        methods = set(re.findall(r"^  (?:static )?[\w:<>&,\s]*?(?<![<\w])(\w+)\(", design, re.M))
         for name in CPP:
             self.assertRegex(header, r"\b%s\b" % name.removeprefix("Design::"))
         offered = {"Design::" + name for name in methods}

@@ -31,25 +31,38 @@ class Types(unittest.TestCase):
                 cwd=folder,
                 capture_output=True,
                 text=True,
-                env={**os.environ, "MYPY_CACHE_DIR": folder, "MYPYPATH": str(PACKAGE.parent)},
+                env={
+                    **os.environ,
+                    "MYPY_CACHE_DIR": folder,
+                    "MYPYPATH": str(PACKAGE.parent),
+                },
             )
 
     def test_package_and_examples_are_strict(self):
-        done = self.run_mypy(
-            "--strict", "-p", "lamina", "--disable-error-code", "import"
-        )
+        done = self.run_mypy("--strict", "-p", "lamina")
         self.assertEqual(done.returncode, 0, done.stdout)
         done = self.run_mypy("--strict", *sorted(EXAMPLES.glob("*.py")))
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_users_see_types(self):
         done = self.run_mypy("--strict", "-c", USE)
-        self.assertIn("ndarray[Any, numpy.dtype[numpy.floating[numpy._typing._64Bit]]]", done.stdout)
+        self.assertIn(
+            "ndarray[Any, numpy.dtype[numpy.floating[numpy._typing._64Bit]]]",
+            done.stdout,
+        )
         self.assertIn('"builtins.str"', done.stdout)
         self.assertIn('Property "area" defined in "Layer" is read-only', done.stdout)
 
     def test_stubs_are_what_the_extension_has(self):
-        done = self.run_mypy("lamina._lamina", module="mypy.stubtest")
+        # pybind11's classes have a metaclass, and take any arguments where none
+        # make one.
+        with tempfile.NamedTemporaryFile("w") as allowed:
+            for name in ["Layer", "Layer.__init__", "SliceOptions", "Solid"]:
+                allowed.write(f"lamina._lamina.{name}\n")
+            allowed.flush()
+            done = self.run_mypy(
+                "--allowlist", allowed.name, "lamina._lamina", module="mypy.stubtest"
+            )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
