@@ -17,6 +17,7 @@
 #include "compiler/compile.h"
 #include "compiler/layer_output.h"
 #include "compiler/look_at.h"
+#include "compiler/option_names.h"
 #include "compiler/tasks/quote.h"
 #include "compiler/tasks/viewer_options.h"
 #include "compiler/validate.h"
@@ -70,23 +71,12 @@ void require(bool holds, const std::string& words) {
 // A fault of a request, in the names of this interface instead of those of the
 // command line: "--max-layer needs --adaptive" is "max_layer needs adaptive".
 std::string in_own_names(std::string_view words) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOwn =
-      {{{"layer", "layer_thickness"}, {"compensate", "compensation"}}};
-  std::string text;
-  while (true) {
-    const std::size_t begin = words.find("--");
-    text += words.substr(0, begin);
-    if (begin == std::string_view::npos) return text;
-    words.remove_prefix(begin + 2);
-    const std::size_t end = std::min(words.find_first_of(" :,;"), words.size());
-    std::string name(words.substr(0, end));
+  return compiler::rename_options(words, [](std::string name) {
+    if (name == "layer") return std::string("layer_thickness");
+    if (name == "compensate") return std::string("compensation");
     std::ranges::replace(name, '-', '_');
-    for (const auto& [option, own] : kOwn) {
-      if (name == option) name = own;
-    }
-    text += name;
-    words.remove_prefix(end);
-  }
+    return name;
+  });
 }
 
 void require_valid(const compiler::Request& request) {

@@ -14,9 +14,9 @@ target_compile_options(lamina_options INTERFACE
   # Contraction would let one formula give two values in two places; the
   # samplers rely on equal bits for equal expressions.
   -ffp-contract=off
-  # In what is loaded, no other library may put functions in the place of ours, so
-  # that calls stay as direct as in a program.
-  $<$<BOOL:$<TARGET_PROPERTY:POSITION_INDEPENDENT_CODE>>:-fno-semantic-interposition>
+  # In what Python loads, no other library may put functions in the place of ours, so
+  # that calls stay as direct as in a program. (A module may stand in for others.)
+  $<$<AND:$<BOOL:$<TARGET_PROPERTY:POSITION_INDEPENDENT_CODE>>,$<NOT:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,MODULE_LIBRARY>>>:-fno-semantic-interposition>
   # What g++ 12 says of its own library once it has inlined it, where nothing is
   # wrong; the sanitizers and valgrind look for such mistakes themselves.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>)

@@ -13,6 +13,7 @@
 
 #include "base/similar.h"
 #include "base/text.h"
+#include "compiler/option_names.h"
 #include "compiler/validate.h"
 #include "serve/shop/detail/json_number.h"
 
@@ -182,22 +183,19 @@ void choose_materials(const Order& order, const compiler::OutputRequest& base,
 // A fault of a request in the names of an order: "--min-feature: must be …" is
 // "minFeature must be …".
 std::string in_own_names(std::string_view words) {
-  std::string text;
-  while (true) {
-    const std::size_t begin = words.find("--");
-    text += words.substr(0, begin);
-    if (begin == std::string_view::npos) return text;
-    words.remove_prefix(begin + 2);
-    while (!words.empty() && words[0] != ' ' && words[0] != ',') {
-      const bool is_hyphen = words[0] == '-' && words.size() > 1;
-      if (is_hyphen) words.remove_prefix(1);
-      if (words[0] != ':') {
-        text +=
-            is_hyphen ? static_cast<char>(std::toupper(words[0])) : words[0];
-      }
-      words.remove_prefix(1);
+  std::string text = compiler::rename_options(words, [](std::string name) {
+    for (std::size_t hyphen = name.find('-'); hyphen + 1 < name.size();
+         hyphen = name.find('-')) {
+      name.erase(hyphen, 1);
+      name[hyphen] = static_cast<char>(std::toupper(name[hyphen]));
     }
+    return name;
+  });
+  // The name begins a sentence.
+  if (const std::size_t colon = text.find(": must"); colon != text.npos) {
+    text.erase(colon, 1);
   }
+  return text;
 }
 
 }  // namespace
