@@ -17,7 +17,6 @@
 #include "compiler/compile.h"
 #include "compiler/layer_output.h"
 #include "compiler/look_at.h"
-#include "compiler/option_names.h"
 #include "compiler/tasks/quote.h"
 #include "compiler/tasks/viewer_options.h"
 #include "compiler/validate.h"

@@ -11,6 +11,7 @@
 // no use for some of them, shows later: compile() warns.)
 
 #include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -64,5 +65,12 @@ const NumberLimits& limits_of(std::string_view option);
 // unknown, and where options contradict each other or the format of the output,
 // so that nobody believes that an option was obeyed which was not.
 void validate(const Request& request);
+
+// Messages about requests name options; other interfaces have names of their
+// own. Returns the text with each option in it, "--max-layer", replaced by what
+// `own_name` makes of "max-layer".
+std::string rename_options(
+    std::string_view text,
+    const std::function<std::string(std::string name)>& own_name);
 
 }  // namespace lamina::compiler

@@ -13,7 +13,6 @@
 
 #include "base/similar.h"
 #include "base/text.h"
-#include "compiler/option_names.h"
 #include "compiler/validate.h"
 #include "serve/shop/detail/json_number.h"
 
@@ -184,9 +183,10 @@ void choose_materials(const Order& order, const compiler::OutputRequest& base,
 // "minFeature must be …".
 std::string in_own_names(std::string_view words) {
   std::string text = compiler::rename_options(words, [](std::string name) {
-    for (std::size_t hyphen = name.find('-'); hyphen + 1 < name.size();
-         hyphen = name.find('-')) {
+    std::size_t hyphen = 0;
+    while ((hyphen = name.find('-', hyphen)) != name.npos) {
       name.erase(hyphen, 1);
+      if (hyphen == name.size()) break;
       name[hyphen] = static_cast<char>(std::toupper(name[hyphen]));
     }
     return name;
