@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -197,9 +198,14 @@ void Shop::answer(const Request& request,
     send(*reply, route, problem(422, error.diagnostic().message));
   } catch (const serve::NameError& error) {
     send(*reply, route, problem(422, error.diagnostic().message));
+  } catch (const InternalError&) {
+    send(*reply, route, problem(500, words_of(500)));
   } catch (const Error& error) {
     // The system grants no process, or no pipe to it.
     send(*reply, route, problem(503, error.diagnostic().message));
+  } catch (const std::logic_error&) {
+    // One order that meets a fault of ours is not to end the others.
+    send(*reply, route, problem(500, words_of(500)));
   }
 }
 
