@@ -1,5 +1,5 @@
-// The C++ interface's half of bench/python: slices a design again and again, and
-// prints the processor seconds of a slicing and the sum of all coordinates.
+// The C++ interface's half of bench/python: slices a design again and again,
+// and prints the processor seconds of a slicing and the sum of all coordinates.
 
 #include <cstdio>
 #include <cstdlib>

@@ -288,7 +288,8 @@ std::string Ledger::read_key(const compiler::Compilation& compilation) {
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   Json files = Json::array();
   for (const std::string& path : paths) {
-    if (has_changed_since(compilation.begin, path, access_)) return kChangedMeanwhile;
+    if (has_changed_since(compilation.begin, path, access_))
+      return kChangedMeanwhile;
     files.push_back({json_of_path(path), files_.digest_of(path)});
   }
   std::string key = digest(line_of(files));

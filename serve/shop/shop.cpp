@@ -220,7 +220,7 @@ void Shop::answer_route(const Match& match, const Request& request,
       return send(*reply, &route,
                   content(route.type, serve::text_of(Json(designs_.names()))));
     case Action::kParameters:
-      return show_parameters(match.name, reply);
+      return show_parameters(match, reply);
     case Action::kDescription:
       return send(*reply, &route,
                   content(route.type, openapi(options_.designs.names.formats)));
@@ -232,24 +232,24 @@ void Shop::answer_route(const Match& match, const Request& request,
                       ? problem(503, "No orders are taken now.")
                       : content(route.type, "ready\n"));
     case Action::kMetrics:
-      return send(*reply, &route, metrics());
+      return send(*reply, &route, content(route.type, metrics()));
     default:
       return take_order(match, request, reply);
   }
 }
 
-void Shop::show_parameters(const std::string& name,
+void Shop::show_parameters(const Match& match,
                            const std::shared_ptr<http::Reply>& reply) {
-  const auto found = find_route("/designs/x/parameters");
-  const Route* const route = found->route;
-  designs_.read(name, [this, name, reply, route](ReadDesign* design) {
-    if (design == nullptr) return send(*reply, route, problem(503, kEnded));
+  designs_.read(match.name, [this, match, reply](ReadDesign* design) {
+    const Route& route = *match.route;
+    if (design == nullptr) return send(*reply, &route, problem(503, kEnded));
     if (!design->offer) {
-      return send(*reply, route,
+      return send(*reply, &route,
                   problem(422, "The design cannot be read.", design->messages));
     }
-    send(*reply, route,
-         content(route->type, serve::text_of(design->offer->schema(name))));
+    send(
+        *reply, &route,
+        content(route.type, serve::text_of(design->offer->schema(match.name))));
   });
 }
 
@@ -486,13 +486,12 @@ void Shop::send(http::Reply& reply, const Route* route, Response response) {
   reply.send(std::move(response));
 }
 
-Response Shop::metrics() const {
-  return content(find_route("/metrics")->route->type,
-                 metrics_.text({.workers = options_.workers,
-                                .running = running_,
-                                .waiting = tickets_.size() - running_,
-                                .designs = designs_.size(),
-                                .cache_bytes = cache_.bytes()}));
+std::string Shop::metrics() const {
+  return metrics_.text({.workers = options_.workers,
+                        .running = running_,
+                        .waiting = tickets_.size() - running_,
+                        .designs = designs_.size(),
+                        .cache_bytes = cache_.bytes()});
 }
 
 void Shop::end(std::chrono::milliseconds most_time) {

@@ -84,7 +84,7 @@ class Shop {
 
   void answer_route(const Match& match, const http::Request& request,
                     const std::shared_ptr<http::Reply>& reply);
-  void show_parameters(const std::string& design,
+  void show_parameters(const Match& match,
                        const std::shared_ptr<http::Reply>& reply);
   void take_order(const Match& match, const http::Request& request,
                   const std::shared_ptr<http::Reply>& reply);
@@ -104,7 +104,7 @@ class Shop {
   bool is_full() const {
     return tickets_.size() >= options_.queue + options_.workers;
   }
-  http::Response metrics() const;
+  std::string metrics() const;
 
   const ShopOptions options_;
   http::Server& server_;
