@@ -3,11 +3,11 @@
 //
 // Names are resolved to slots (resolve/), functions and modules when they are
 // first called; the resolved code (code/) runs (run/, builtin/) and makes the
-// nodes of the CSG tree. Each of these rooms knows those before it: value,
-// code, run, builtin, resolve.
+// nodes of the CSG tree. Each of these rooms knows those before it: value, code,
+// run, builtin, resolve.
 //
-// The rules are those of OpenSCAD 2021.01, oddities included: assignments
-// before instantiations, the last value of a name at its first place, arguments
+// The rules are those of OpenSCAD 2021.01, oddities included: assignments before
+// instantiations, the last value of a name at its first place, arguments
 // evaluated in the order of a hash table, the variables of a used file assigned
 // anew for each call from outside. Messages are its own, word for word.
 
