@@ -169,14 +169,8 @@ class Design:
     ) -> list[Layer]:
         """All layers, the lowest first; options as of the program."""
         return self._solid.slice(
-            _lamina.SliceOptions(
-                layer,
-                adaptive,
-                max_layer,
-                list(heights),
-                tolerance,
-                compensation,
-                threads,
+            _options(
+                layer, compensation, threads, adaptive, max_layer, heights, tolerance
             )
         )
 
@@ -199,8 +193,8 @@ class Design:
         printer  whose panel images are for
         mirror   "x", "y" or "xy": images are turned over
         """
-        options = _lamina.SliceOptions(
-            layer, adaptive, max_layer, list(heights), tolerance, compensation, threads
+        options = _options(
+            layer, compensation, threads, adaptive, max_layer, heights, tolerance
         )
         self._solid.write(os.fspath(path), options, printer, mirror)
 
@@ -285,9 +279,17 @@ def inspect(
 
 
 def _options(
-    layer: float, compensation: float, threads: int
+    layer: float,
+    compensation: float,
+    threads: int,
+    adaptive: float = 0,
+    max_layer: float = 0,
+    heights: Sequence[float] = (),
+    tolerance: float = 0.001,
 ) -> _lamina.SliceOptions:
-    return _lamina.SliceOptions(layer, 0, 0, [], 0.001, compensation, threads)
+    return _lamina.SliceOptions(
+        layer, adaptive, max_layer, list(heights), tolerance, compensation, threads
+    )
 
 
 def _size_of(supports: bool | float | str) -> str:
