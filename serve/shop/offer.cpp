@@ -70,15 +70,4 @@ ParameterSet Offer::check(std::string_view values) const {
   throw OrderError(fmt::format("{}", fmt::join(faults, "; ")));
 }
 
-Json Offer::values_with_defaults(std::string_view values) const {
-  const Json given = Json::parse(values);
-  Json all = Json::object();
-  for (const Parameter& parameter : parameters_) {
-    const auto found = given.find(parameter.name());
-    all[parameter.name()] =
-        found == given.end() ? detail::json_of(parameter.own()) : *found;
-  }
-  return all;
-}
-
 }  // namespace lamina::shop

@@ -42,11 +42,6 @@ class Offer {
   // throws  OrderError, which says why of the first values that are not offered
   ParameterSet check(std::string_view values) const;
 
-  // All parameters with the values that count, in the design's order.
-  //
-  // values  of an Order, which have been checked
-  nlohmann::ordered_json values_with_defaults(std::string_view values) const;
-
  private:
   std::string unknown_name(const std::string& name, Guesses& guesses) const;
 
