@@ -21,9 +21,7 @@ using Json = nlohmann::ordered_json;
 // The values of all parameters.
 Json values_json(const ast::Program& program) {
   Json values = Json::object();
-  const Json file = Json::parse(parameters_json(program, ""));
-  if (!file.contains("parameters")) return values;
-  for (const Json& parameter : file["parameters"]) {
+  for (const Json& parameter : parameter_list(program)) {
     values[parameter["name"].get<std::string>()] = parameter["initial"];
   }
   return values;
@@ -93,6 +91,12 @@ Json thin_places_json(const Inspection& inspection, const std::string& folder) {
 }
 
 }  // namespace
+
+Json parameter_list(const ast::Program& program) {
+  Json file = Json::parse(parameters_json(program, ""));
+  return file.contains("parameters") ? std::move(file["parameters"])
+                                     : Json::array();
+}
 
 Json weights_json(double volume) {
   Json metals = Json::array();

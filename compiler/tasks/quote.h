@@ -13,6 +13,9 @@ namespace lamina::compiler {
 nlohmann::ordered_json quote_json(const Compilation& compilation,
                                   const Inspection& inspection);
 
+// The parameters of a design, as `-o x.param` lists them.
+nlohmann::ordered_json parameter_list(const ast::Program& program);
+
 // What the piece would weigh in each metal that lamina knows.
 //
 // volume  of the piece [mm³]

@@ -129,4 +129,20 @@ std::unique_ptr<Server> make_server(const Limits& limits, const Policy& policy,
   return std::make_unique<ModuleServer>(std::move(engine));
 }
 
+Response content(std::string_view type, std::string body) {
+  Response response;
+  response.type = type;
+  response.body = std::move(body);
+  return response;
+}
+
+std::pair<std::string, std::string> attachment(std::string_view name) {
+  std::string plain;
+  for (const char c : name) {
+    const bool is_plain = c > ' ' && c < 0x7F && c != '"' && c != '\\';
+    plain += is_plain ? c : '_';
+  }
+  return {"Content-Disposition", "attachment; filename=\"" + plain + '"'};
+}
+
 }  // namespace lamina::http

@@ -111,6 +111,13 @@ struct Response {
   std::vector<std::pair<std::string, std::string>> headers;
 };
 
+// An answer of 200.
+Response content(std::string_view type, std::string body);
+
+// The header by which an answer is kept as a file. What could not stand between
+// its quotes is '_' in the name.
+std::pair<std::string, std::string> attachment(std::string_view name);
+
 // The answer to one request. It may come later, also when the connection has
 // ended. One that is given up without an answer is answered by 500; one that is
 // given up after begin() ends with what has been written.

@@ -222,9 +222,17 @@ class DesignLoop {
 
 }  // namespace
 
-bool can_go_on_from_read(const compiler::Request& request) {
-  return !request.supports && !request.sprues &&
-         request.geometry.searched_direction == 0;
+void go_on_from_read(compiler::Compilation& design, compiler::Request request,
+                     bool reads_anew,
+                     const std::function<void(compiler::Compilation&)>& work) {
+  if (!reads_anew && !request.supports && !request.sprues &&
+      request.geometry.searched_direction == 0) {
+    design.request = std::move(request);
+    return work(design);
+  }
+  compiler::Compilation anew(std::move(request), design.temporary_files);
+  anew.evaluation_stack = design.evaluation_stack;
+  work(anew);
 }
 
 std::string words_of(ChildFault fault) {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -47,9 +48,14 @@ class DesignWork {
                             int output) = 0;
 };
 
-// Whether a run with this request can go on from the design as it was read:
-// supports, sprues and searches for a direction change or repeat the reading.
-bool can_go_on_from_read(const compiler::Request& request);
+// Hands a run's compilation to its work: the design as it was read, or one that
+// will read it, where supports, sprues or a search for a direction change or
+// repeat the reading.
+//
+// reads_anew  whether it is read anew in any case
+void go_on_from_read(compiler::Compilation& design, compiler::Request request,
+                     bool reads_anew,
+                     const std::function<void(compiler::Compilation&)>& work);
 
 // Says how a run ended that did not end by itself.
 std::string words_of(ChildFault fault);

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lamina::serve {
 
@@ -19,6 +21,23 @@ enum class FrameKind : char {
 
 // Writes a frame. False where nobody reads any more.
 bool write_frame(int descriptor, FrameKind kind, std::string_view bytes);
+
+// Writes a frame, from a run. Ends its process where nobody reads any more:
+// what it makes has been given up.
+void send_frame(int descriptor, FrameKind kind, std::string_view bytes);
+
+// A frame of kAnswer.
+struct RunAnswer {
+  unsigned status = 500;
+  std::string json;
+};
+void send_answer(int descriptor, const RunAnswer& answer);
+RunAnswer read_answer(std::string_view frame);
+
+// A frame of kFiles.
+void send_files(int descriptor, const std::vector<std::string>& files);
+// The absolute paths in it.
+std::set<std::string> read_files(std::string_view frame);
 
 // Takes the bytes of a pipe as they come.
 class FrameReader {

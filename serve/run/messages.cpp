@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/paths.h"
+#include "compiler/tasks/quote.h"
 #include "parser/customizer/customizer.h"
 
 namespace lamina::serve {
@@ -74,9 +75,7 @@ Json messages_json(const std::vector<Diagnostic>& messages,
 }
 
 Json parameters_of(const ast::Program& program) {
-  Json file = Json::parse(parameters_json(program, ""));
-  Json parameters = Json::array();
-  if (file.contains("parameters")) parameters = std::move(file["parameters"]);
+  Json parameters = compiler::parameter_list(program);
   const std::map<std::string, std::string> widgets = widgets_of(program);
   for (Json& parameter : parameters) {
     const auto widget = widgets.find(parameter["name"].get<std::string>());

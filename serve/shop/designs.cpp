@@ -153,11 +153,8 @@ void Designs::add_files(const std::string& name, const std::string& list) {
   if (found == entries_.end()) return;
   std::set<std::string>& files = found->second.files;
   const std::size_t before = files.size();
-  std::string_view rest = list;
-  while (!rest.empty() && files.size() < kMostFiles) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    if (end > 0) files.insert(absolute_path(std::string(rest.substr(0, end))));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+  for (const std::string& file : serve::read_files(list)) {
+    if (files.size() < kMostFiles) files.insert(file);
   }
   if (files.size() > before) watch_files(found->second.begin);
 }

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <signal.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include "base/file/output_digest.h"
 #include "base/file/output_file.h"
@@ -32,25 +31,16 @@ namespace lamina::shop {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using serve::FrameKind;
 
 // An answer is no longer than this: images of the largest panels have less.
 constexpr rlim_t kMostBytes = 256 << 20;
 
-// Ends the process where nobody reads: the order has been given up.
-void send_frame(int output, FrameKind kind, std::string_view bytes) {
-  if (!serve::write_frame(output, kind, bytes)) ::_exit(0);
-}
-
 void send_answer(int output, unsigned status, const Json& json) {
-  send_frame(output, FrameKind::kAnswer,
-             fmt::format("{} {}", status, serve::text_of(json)));
+  serve::send_answer(output, {status, serve::text_of(json)});
 }
 
 void send_files(const compiler::Compilation& c, int output) {
-  std::string list;
-  for (const std::string& file : compiler::files_read(c)) list += file + '\n';
-  send_frame(output, FrameKind::kFiles, list);
+  serve::send_files(output, compiler::files_read(c));
 }
 
 Json messages_of(const compiler::Compilation& c) {
@@ -173,7 +163,7 @@ void OrderWork::take_design(compiler::Compilation& design, int output) {
     event["messages"] = messages_of(design);
   }
   send_files(design, output);
-  send_frame(output, FrameKind::kEvent, serve::text_of(event));
+  serve::send_frame(output, serve::FrameKind::kEvent, serve::text_of(event));
 }
 
 void OrderWork::run(compiler::Compilation& design,
@@ -189,13 +179,10 @@ void OrderWork::run(compiler::Compilation& design,
     request.output.format = *slicer::choose_output_format(job.format).format;
   }
   request.job.finds_makers = job.product != Product::kLayers;
-  if (serve::can_go_on_from_read(request)) {
-    design.request = std::move(request);
-    return make(design, job, order, output);
-  }
-  compiler::Compilation anew(std::move(request), design.temporary_files);
-  anew.evaluation_stack = design.evaluation_stack;
-  make(anew, job, order, output);
+  serve::go_on_from_read(design, std::move(request), false,
+                         [&](compiler::Compilation& compilation) {
+                           make(compilation, job, order, output);
+                         });
 }
 
 void OrderWork::make(compiler::Compilation& c, const Job& job,
@@ -213,7 +200,7 @@ void OrderWork::make(compiler::Compilation& c, const Job& job,
   Json head = head_of(c, job);
   head["key"] = key_of(c, job, order);
   if (job.product == Product::kQuote) {
-    send_frame(output, FrameKind::kEvent, *text);
+    serve::send_frame(output, serve::FrameKind::kEvent, *text);
   }
   send_answer(output, 200, head);
 }

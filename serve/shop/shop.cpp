@@ -11,7 +11,6 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
-#include "base/text.h"
 #include "serve/run/messages.h"
 #include "serve/run/pipe.h"
 #include "serve/shop/openapi.h"
@@ -22,6 +21,7 @@
 namespace lamina::shop {
 namespace {
 
+using http::content;
 using http::Request;
 using http::Response;
 using Json = nlohmann::ordered_json;
@@ -59,13 +59,6 @@ const char* words_of(unsigned status) {
   }
 }
 
-Response content(std::string_view type, std::string body) {
-  Response response;
-  response.type = type;
-  response.body = std::move(body);
-  return response;
-}
-
 Response not_allowed(const Route& route) {
   Response response = problem(405, "There is another method for this.");
   response.headers.emplace_back(
@@ -78,16 +71,6 @@ std::string quoted(const std::string& key) { return '"' + key + '"'; }
 // Whether a list of If-None-Match has a key.
 bool matches(const std::string& list, const std::string& key) {
   return !key.empty() && (list == "*" || list.find(quoted(key)) != list.npos);
-}
-
-// In a header, between quotes.
-std::string header_name(const std::string& name) {
-  std::string plain;
-  for (const char c : name) {
-    const bool is_plain = c > ' ' && c < 0x7F && c != '"' && c != '\\';
-    plain += is_plain ? c : '_';
-  }
-  return plain;
 }
 
 // The answer, or that the client has it already.
@@ -104,9 +87,7 @@ Response response_of(const Route& route, const Answer& answer,
     return response;
   }
   if (!answer.name.empty()) {
-    response.headers.emplace_back(
-        "Content-Disposition",
-        fmt::format("attachment; filename=\"{}\"", header_name(answer.name)));
+    response.headers.push_back(http::attachment(answer.name));
   }
   if (route.action == Action::kPage) {
     response.headers.emplace_back("Content-Security-Policy", kPagePolicy);
@@ -145,19 +126,12 @@ std::string order_text(const Request& request) {
   return order_of_query(request.query);
 }
 
-// Formats of layers alone: texts of stages before are none of a shop's
+// Of the formats those of layers: texts of stages before are none of a shop's
 // business.
-std::vector<std::string> layer_formats(std::vector<std::string> formats) {
-  std::erase_if(formats, [](const std::string& extension) {
-    return !slicer::is_of_layers(
-        *slicer::choose_output_format(extension).format);
-  });
-  return formats;
-}
-
 ShopOptions with_layer_formats(ShopOptions options) {
-  std::vector<std::string>& formats = options.designs.names.formats;
-  formats = layer_formats(std::move(formats));
+  std::erase_if(options.designs.names.formats, [](const std::string& format) {
+    return !slicer::is_of_layers(*slicer::choose_output_format(format).format);
+  });
   return options;
 }
 
@@ -407,14 +381,11 @@ void Shop::read_run(std::uint64_t number) {
 }
 
 void Shop::finish(Ticket& ticket) {
-  const std::size_t blank = ticket.answer.find(' ');
-  if (blank == std::string::npos) {
+  if (ticket.answer.empty()) {
     metrics_.count_ended("lost");
     return end_ticket(ticket, problem(503, kEnded));
   }
-  const auto status = static_cast<unsigned>(
-      parse_number(ticket.answer.substr(0, blank)).value_or(500));
-  const std::string head = ticket.answer.substr(blank + 1);
+  const auto [status, head] = serve::read_answer(ticket.answer);
   if (status != 200) {
     if (status != 422) metrics_.count_ended(status == 500 ? "crash" : "kill");
     return end_ticket(ticket, problem(status, words_of(status),

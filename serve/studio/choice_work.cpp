@@ -43,20 +43,14 @@ void ChoiceWork::run(compiler::Compilation& design,
   const Choice choice = read_choice(command.body);
   compiler::Request request = request_of(choice, base_, names_);
   if (static_cast<Task>(command.kind) == Task::kSource) {
-    write_source(design, choice, output);
-  } else if (can_go_on(request)) {
-    design.request = std::move(request);
-    make(design, choice, &*form_, output);
-  } else {
-    compiler::Compilation anew(std::move(request), design.temporary_files);
-    anew.evaluation_stack = design.evaluation_stack;
-    make(anew, choice, nullptr, output);
+    return write_source(design, choice, output);
   }
-}
-
-// Whether the design as it was read is that of the request.
-bool ChoiceWork::can_go_on(const compiler::Request& request) const {
-  return !reads_anew_ && form_ && serve::can_go_on_from_read(request);
+  serve::go_on_from_read(design, std::move(request), reads_anew_ || !form_,
+                         [&](compiler::Compilation& compilation) {
+                           const bool is_read = &compilation == &design;
+                           make(compilation, choice,
+                                is_read ? &*form_ : nullptr, output);
+                         });
 }
 
 void ChoiceWork::report_fault(const serve::Command& command, ChildFault fault,

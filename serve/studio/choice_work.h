@@ -33,8 +33,6 @@ class ChoiceWork : public serve::DesignWork {
                     int output) override;
 
  private:
-  bool can_go_on(const compiler::Request& request) const;
-
   compiler::Request base_;
   serve::Names names_;
   bool reads_anew_;

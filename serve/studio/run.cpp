@@ -8,10 +8,10 @@
 #include <functional>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "base/paths.h"
 #include "base/text.h"
@@ -45,18 +45,10 @@ std::string title_of(const compiler::Compilation& c) {
   return std::filesystem::path(c.request.design.path).filename();
 }
 
-// Ends the run where nobody reads: a later choice has come.
-void send_frame(int output, FrameKind kind, std::string_view bytes) {
-  if (!serve::write_frame(output, kind, bytes)) ::_exit(0);
-}
-
-void send_answer(int output, unsigned status, const std::string& json) {
-  send_frame(output, FrameKind::kAnswer, fmt::format("{} {}", status, json));
-}
-
 // Answers that the messages say why nothing could be made.
 void send_messages(const compiler::Compilation& c, int output) {
-  send_answer(output, 422, fmt::format(R"({{"messages":{}}})", messages_of(c)));
+  serve::send_answer(
+      output, {422, fmt::format(R"({{"messages":{}}})", messages_of(c))});
 }
 
 class ShownChoice {
@@ -70,7 +62,7 @@ class ShownChoice {
         serve::run_caught(c_, [&] { return make(); }) == serve::Ending::kDone;
     send_files();
     send_messages();
-    send_frame(
+    serve::send_frame(
         output_, FrameKind::kLast,
         end_event(choice_.number, is_well, seconds_to_layer_, seconds()));
   }
@@ -158,11 +150,9 @@ class ShownChoice {
   }
 
   void send_files() {
-    std::string list = sets_file(c_.request.design.path) + '\n';
-    for (const std::string& file : compiler::files_read(c_)) {
-      list += file + '\n';
-    }
-    send_frame(output_, FrameKind::kFiles, list);
+    std::vector<std::string> files = compiler::files_read(c_);
+    files.push_back(sets_file(c_.request.design.path));
+    serve::send_files(output_, files);
   }
 
   // All of them so far, where they are others than were sent.
@@ -174,7 +164,7 @@ class ShownChoice {
   }
 
   void send(const std::string& event) {
-    send_frame(output_, FrameKind::kEvent, event);
+    serve::send_frame(output_, FrameKind::kEvent, event);
   }
 
   double seconds() const {
@@ -208,7 +198,8 @@ void write_output(compiler::Compilation& c, const Choice& choice, int output) {
     return;
   }
   const std::string stem = std::filesystem::path(c.request.design.path).stem();
-  send_answer(output, 200, text_of({{"name", stem + "." + choice.format}}));
+  serve::send_answer(output,
+                     {200, text_of({{"name", stem + "." + choice.format}})});
 }
 
 void write_source(compiler::Compilation& c, const Choice& choice, int output) {
@@ -218,20 +209,20 @@ void write_source(compiler::Compilation& c, const Choice& choice, int output) {
     const SourceEdit edit = edit_source(c.design.program, choice.values,
                                         c.design.language, c.diagnostics);
     if (choice.key.empty()) {
-      send_answer(output, 200,
-                  text_of({{"diff", edit.diff}, {"key", edit.key}}));
+      serve::send_answer(
+          output, {200, text_of({{"diff", edit.diff}, {"key", edit.key}})});
       return true;
     }
     // The file may have changed since it was read, or since it was shown.
     if (choice.key != edit.key || c.file_access().read(path) != edit.before) {
-      send_answer(output, 409, R"({"messages":[]})");
+      serve::send_answer(output, {409, R"({"messages":[]})"});
       return true;
     }
     if (RunFiles* const files = c.file_access().run_files()) {
       files->begin_again(c.file_access());
     }
     compiler::write_file(path, edit.text, c.temporary_files);
-    send_answer(output, 200, text_of({{"written", title_of(c)}}));
+    serve::send_answer(output, {200, text_of({{"written", title_of(c)}})});
     return true;
   });
   if (ending != serve::Ending::kDone) send_messages(c, output);

@@ -22,6 +22,7 @@
 namespace lamina::studio {
 namespace {
 
+using http::content;
 using http::Request;
 using http::Response;
 using serve::DesignProcess;
@@ -43,23 +44,6 @@ Response text(unsigned status, std::string words) {
   response.status = status;
   response.body = std::move(words);
   return response;
-}
-
-Response content(std::string_view type, std::string body) {
-  Response response;
-  response.type = type;
-  response.body = std::move(body);
-  return response;
-}
-
-// In a header, between quotes.
-std::string file_name(const std::string& name) {
-  std::string plain;
-  for (const char c : name) {
-    const bool is_plain = c > ' ' && c < 0x7F && c != '"' && c != '\\';
-    plain += is_plain ? c : '_';
-  }
-  return plain;
 }
 
 std::string cookie_name(std::uint16_t port) {
@@ -185,9 +169,7 @@ void Studio::send_file(std::string_view number, const Reply& reply) {
   const MadeFile& made = found->second;
   Response response = content("application/octet-stream", "");
   response.file = fmt::format("/proc/self/fd/{}", made.file.descriptor());
-  response.headers = {
-      {"Content-Disposition",
-       fmt::format("attachment; filename=\"{}\"", file_name(made.name))}};
+  response.headers = {http::attachment(made.name)};
   reply->send(std::move(response));
 }
 
@@ -307,17 +289,14 @@ void Studio::read_made(Client& client) {
   client.made_frames.add(*bytes, [&](FrameKind kind, std::string frame) {
     if (kind == FrameKind::kAnswer) answer = std::move(frame);
   });
-  if (answer) return finish_made(client, std::move(*answer));
+  if (answer) return finish_made(client, *answer);
   if (bytes->empty()) end_made(client, kLost);
 }
 
 // answer  "200 {…}"
-void Studio::finish_made(Client& client, std::string answer) {
+void Studio::finish_made(Client& client, const std::string& answer) {
   const Reply reply = std::exchange(client.waiting, nullptr);
-  const std::size_t blank = answer.find(' ');
-  const auto status = static_cast<unsigned>(
-      parse_number(answer.substr(0, blank)).value_or(500));
-  std::string json = answer.substr(blank + 1);
+  auto [status, json] = serve::read_answer(answer);
   if (status == 200 && client.file) {
     const std::uint64_t number = ++last_file_;
     const std::string name = name_in_answer(json);
@@ -362,13 +341,7 @@ void Studio::drop(const std::string& name) {
 }
 
 void Studio::take_files(Client& client, const std::string& list) {
-  std::set<std::string> files;
-  std::string_view rest = list;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    if (end > 0) files.insert(absolute_path(std::string(rest.substr(0, end))));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
+  std::set<std::string> files = serve::read_files(list);
   if (files == client.files) return;
   client.files = std::move(files);
   watch_files(client.begin);

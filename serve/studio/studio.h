@@ -104,7 +104,7 @@ class Studio {
   serve::DesignProcess& process_for(Client& client, const std::string& design);
   void read_shown(Client& client);
   void read_made(Client& client);
-  void finish_made(Client& client, std::string answer);
+  void finish_made(Client& client, const std::string& answer);
   void end_shown(Client& client);
   // why  for who waits for what is made, if somebody does
   void end_made(Client& client, const char* why);
