@@ -445,12 +445,13 @@ class WireTest(StudioTest):
 
     def test_a_slow_program_does_not_keep_back_the_newest_choice(self):
         self.open()
-        self.studio.delays = (3, 3)
+        self.studio.delays = (10, 10)
         self.enter("size", "60")
         begin = time.monotonic()
         self.enter("size", "70")
         self.wait_until(lambda: self.studio.changes[-1]["values"] == {"size": "70"})
-        self.assertLess(time.monotonic() - begin, 1)
+        # Before the first is answered.
+        self.assertLess(time.monotonic() - begin, 10)
 
     def test_numbers_count_up_and_the_layer_in_view_is_told(self):
         self.open()
