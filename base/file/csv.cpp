@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool is_space_or_tab(char c) { return c == ' ' || c == '\t'; }
 
 }  // namespace
 
@@ -161,7 +161,7 @@ bool CsvReader::is_at_separator() {
 }
 
 void CsvReader::skip_blanks() {
-  while (!is_at_end() && is_blank(text_[place_]) && !is_at_separator()) {
+  while (!is_at_end() && is_space_or_tab(text_[place_]) && !is_at_separator()) {
     ++place_;
   }
 }
@@ -186,7 +186,7 @@ std::string CsvReader::read_cell() {
   const std::size_t begin = place_;
   while (!is_at_row_end() && !is_at_separator()) ++place_;
   std::size_t end = place_;
-  while (end > begin && is_blank(text_[end - 1])) --end;
+  while (end > begin && is_space_or_tab(text_[end - 1])) --end;
   return text_.substr(begin, end - begin);
 }
 
@@ -214,7 +214,8 @@ std::string CsvReader::read_quoted() {
 std::string csv_cell(std::string_view text) {
   const bool is_plain =
       text.find_first_of(",;\t\"\r\n") == std::string_view::npos &&
-      (text.empty() || (!is_blank(text.front()) && !is_blank(text.back())));
+      (text.empty() ||
+       (!is_space_or_tab(text.front()) && !is_space_or_tab(text.back())));
   if (is_plain) return std::string(text);
   std::string cell = "\"";
   for (const char c : text) {

@@ -33,7 +33,7 @@ using Lock = std::lock_guard<std::timed_mutex>;
 constexpr std::size_t kLongestShown = 200;
 constexpr std::string_view kMark = ".lamina-";
 
-std::string folder_of(const std::string& path) {
+std::string folder_that_holds(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
@@ -299,7 +299,7 @@ TemporaryFiles::File TemporaryFiles::open_file(const std::string& target) {
   const Lock lock(mutex_);
   remove_abandoned(hidden_sibling(target, 0), access_.run_files());
   File file;
-  file.file = open_nameless_in(folder_of(target));
+  file.file = open_nameless_in(folder_that_holds(target));
   if (file.file >= 0) return file;
   file.file = make_hidden(target, file.name, paths_, access_.run_files(),
                           make_file<0666>);

@@ -26,7 +26,7 @@
 namespace lamina::cli {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr std::string_view kOrientHelp =
     R"(Usage: lamina orient DESIGN [-o FILE] [OPTION]...
@@ -155,8 +155,8 @@ class OrientCommand : public Command {
     return text;
   }
 
-  static json json_row(const compiler::JudgedDirection& one) {
-    json row = {{"orient", {one.up.x, one.up.y, one.up.z}},
+  static Json json_row(const compiler::JudgedDirection& one) {
+    Json row = {{"orient", {one.up.x, one.up.y, one.up.z}},
                 {"height_mm", one.height},
                 {"islands", one.islands},
                 {"overhang_mm2", one.overhang},
@@ -173,12 +173,12 @@ class OrientCommand : public Command {
   }
 
   static std::string json_of(const compiler::OrientResult& found) {
-    json rows = json::array();
+    Json rows = Json::array();
     for (const auto& one : found.listed) rows.push_back(json_row(one));
     return json_text({{"judged", found.judged},
                       {"planned", found.planned},
                       {"interrupted", found.is_stopped},
-                      {"drawn", found.drawn ? json_row(*found.drawn) : json()},
+                      {"drawn", found.drawn ? json_row(*found.drawn) : Json()},
                       {"listed", std::move(rows)}});
   }
 

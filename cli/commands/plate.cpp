@@ -38,7 +38,7 @@
 namespace lamina::cli {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr std::string_view kPlateHelp =
     R"(Usage: lamina plate [DESIGN...] [--table ORDERS.csv] -o PATTERN [OPTION]...
@@ -74,7 +74,7 @@ go for all pieces: --printer, --supports, --hollow, --layer.
 constexpr double kSlack = 1e-6;
 
 // Of plates and gaps: no printer's plate is wider [mm].
-constexpr double kGreatestLength = 10000;
+constexpr double kGreatestPlateLength = 10000;
 
 // Pieces are equal where these are.
 using PieceKey = std::tuple<std::string, std::string, std::string, std::string>;
@@ -166,9 +166,9 @@ class PlateCommand : public Command {
  private:
   static double length_of(const std::string& option, const std::string& text) {
     const auto length = parse_number(text);
-    require(length && *length >= 0 && *length <= kGreatestLength, option,
+    require(length && *length >= 0 && *length <= kGreatestPlateLength, option,
             "a length from 0 to {:g} mm was expected, not '{}'",
-            kGreatestLength, text);
+            kGreatestPlateLength, text);
     return *length;
   }
 
@@ -179,7 +179,7 @@ class PlateCommand : public Command {
                            ? std::nullopt
                            : parse_number(text.substr(comma + 1));
     require(width && depth && *width > 0 && *depth > 0 &&
-                std::max(*width, *depth) <= kGreatestLength,
+                std::max(*width, *depth) <= kGreatestPlateLength,
             "--plate",
             "a width and a depth were expected, such as 120,68, not '{}'",
             text);
@@ -296,7 +296,7 @@ class PlateCommand : public Command {
     context.expect_outputs({map_});
     make_folder_of(map_, context.file_access());
     std::vector<slicer::MappedPlate> titled;
-    json listed = json::array();
+    Json listed = Json::array();
     for (PlannedPlate& plate : plates) {
       const compiler::Report report = write(plate, context, diagnostics);
       plate.mapped.title = title_of(plate, report);
@@ -411,9 +411,9 @@ class PlateCommand : public Command {
                        estimate.empty() ? "" : ", ", estimate);
   }
 
-  static json json_of(const PlannedPlate& plate, const compiler::Report& report,
+  static Json json_of(const PlannedPlate& plate, const compiler::Report& report,
                       const std::vector<slicer::MappedPiece>& mapped) {
-    json pieces = json::array();
+    Json pieces = Json::array();
     for (const slicer::Placement& placement : plate.mapped.placements) {
       pieces.push_back({{"name", mapped[placement.piece].name},
                         {"turn_deg", placement.turn_deg},
@@ -430,7 +430,7 @@ class PlateCommand : public Command {
 
   void write_map(const std::vector<slicer::MappedPiece>& mapped,
                  const std::vector<slicer::MappedPlate>& plates,
-                 const json& listed, const Context& context) const {
+                 const Json& listed, const Context& context) const {
     if (map_.empty()) return;
     compiler::write_file(map_,
                          map_.ends_with(".json")

@@ -27,9 +27,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Rows of a list on the terminal; files have all.
-constexpr std::size_t kMostRows = 8;
-
 constexpr std::string_view kPreflightHelp =
     R"(Usage: lamina preflight DESIGN --metal METAL [-o FILE] [OPTION]...
 

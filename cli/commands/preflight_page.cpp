@@ -19,8 +19,6 @@
 namespace lamina::cli {
 namespace {
 
-// Rows of a list on the page; the rest is counted.
-constexpr std::size_t kMostRows = 8;
 constexpr unsigned kPictureSide = 460;  // [pixels]
 
 constexpr std::string_view kStyle =

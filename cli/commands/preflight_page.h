@@ -7,6 +7,9 @@
 
 namespace lamina::cli {
 
+// Rows of a list on the page and on the terminal; files have all.
+inline constexpr std::size_t kMostRows = 8;
+
 // "1.50, 0.00, 21.32": as lists have a place.
 std::string place_text(Vec3 place);
 

@@ -76,7 +76,7 @@ constexpr milliseconds kEndTime{30'000};
 constexpr milliseconds kPause{50};
 
 // Options that no answer depends on.
-constexpr std::array<std::string_view, 8> kNeutralOptions = {
+constexpr std::array<std::string_view, 8> kServerOptions = {
     "--listen", "--host",     "--workers",    "--queue",
     "--quiet",  "--max-time", "--max-memory", "--threads"};
 
@@ -132,7 +132,7 @@ class ServeCommand : public Command {
     for (const GivenOption& option : options_->given()) {
       if (option.name == "--root") root_ = option.words.front();
     }
-    settings_ = given_text(*options_, kNeutralOptions);
+    settings_ = given_text(*options_, kServerOptions);
     refuse_if(root_.empty(), "serve needs --root FOLDER, with the designs");
     refuse_if(!request_.job.heights.empty(),
               "serve needs whole layers, not --heights");

@@ -56,7 +56,7 @@ All options of Design are those of 'lamina --help' and go for all pieces.
 )";
 
 // Of flasks, gaps and trunks [mm].
-constexpr double kGreatestLength = 1000;
+constexpr double kGreatestFlaskLength = 1000;
 
 class TreeCommand : public Command {
  public:
@@ -122,10 +122,10 @@ class TreeCommand : public Command {
                          double& length) {
     options.text(option, "length", [&length, option](const std::string& text) {
       const auto value = parse_number(text);
-      require(value && *value > 0 && *value <= kGreatestLength, option,
+      require(value && *value > 0 && *value <= kGreatestFlaskLength, option,
               "a length of more than 0 and at most {:g} mm was expected, not "
               "'{}'",
-              kGreatestLength, text);
+              kGreatestFlaskLength, text);
       length = *value;
     });
   }
@@ -133,7 +133,8 @@ class TreeCommand : public Command {
   void take_flask(const std::string& text) {
     const auto numbers = require_numbers("--flask", text);
     require(numbers.size() == 2 && numbers[0] > 0 && numbers[1] > 0 &&
-                numbers[0] <= kGreatestLength && numbers[1] <= kGreatestLength,
+                numbers[0] <= kGreatestFlaskLength &&
+                numbers[1] <= kGreatestFlaskLength,
             "--flask",
             "a diameter and a height in mm were expected, such as 80,100, not "
             "'{}'",

@@ -17,7 +17,7 @@ using compiler::ComparisonResult;
 using compiler::SideText;
 using slicer::LayerDifference;
 
-constexpr std::size_t kListedLayers = 10;
+constexpr std::size_t kListedDifferences = 10;
 
 // Three digits are enough to compare lengths by.
 std::string length(double mm) {
@@ -45,11 +45,11 @@ std::vector<std::size_t> choose_rows(const std::vector<LayerDifference>& layers,
   for (std::size_t row = 0; row < layers.size(); ++row) {
     if (lists_all || rank(row) > std::pair(0.0, 0.0)) rows.push_back(row);
   }
-  if (lists_all || rows.size() <= kListedLayers) return rows;
+  if (lists_all || rows.size() <= kListedDifferences) return rows;
   std::stable_sort(rows.begin(), rows.end(), [&](std::size_t i, std::size_t j) {
     return rank(i) > rank(j);
   });
-  rows.resize(kListedLayers);
+  rows.resize(kListedDifferences);
   std::sort(rows.begin(), rows.end());
   return rows;
 }

@@ -19,8 +19,6 @@ namespace {
 using slicer::ThinFeature;
 using slicer::ThinKind;
 
-constexpr std::size_t kMostLines = 20;
-
 std::string layers_text(const ThinFeature& feature) {
   return feature.first_layer == feature.last_layer
              ? fmt::format("{}", feature.first_layer)

@@ -8,11 +8,10 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "cli/report/feature_table.h"
 
 namespace lamina::cli {
 namespace {
-
-constexpr std::size_t kMostLines = 20;
 
 const char* kind_of(const slicer::ThinPlace& place) {
   if (place.is_gap) return "gap";

@@ -231,12 +231,6 @@ ordered_json number_or_null(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json();
 }
 
-ordered_json box_json(const Box3& box) {
-  if (box.is_empty()) return {};
-  return {{"low", {box.low.x, box.low.y, box.low.z}},
-          {"high", {box.high.x, box.high.y, box.high.z}}};
-}
-
 ordered_json meshes_json(const Inspection& found) {
   ordered_json meshes = ordered_json::array();
   for (const csg::MeshFacts& mesh : found.meshes) {

@@ -122,12 +122,6 @@ Json passes_json(const compiler::Report& report) {
           {"output_seconds", number(slice.output_seconds)}};
 }
 
-Json box_json(const Box3& box) {
-  if (box.is_empty()) return nullptr;
-  return {{"low", {box.low.x, box.low.y, box.low.z}},
-          {"high", {box.high.x, box.high.y, box.high.z}}};
-}
-
 Json layers_json(const compiler::Report& report) {
   const slicer::SliceReport& slice = report.slice;
   return {{"layers", slice.layers},
@@ -416,6 +410,12 @@ std::string direction_line(const compiler::Report& report) {
 Json report_json(const compiler::Compilation& compilation) {
   return report_with(
       compilation, {{"wall_seconds", number(compilation.report.wall_seconds)}});
+}
+
+Json box_json(const Box3& box) {
+  if (box.is_empty()) return nullptr;
+  return {{"low", {box.low.x, box.low.y, box.low.z}},
+          {"high", {box.high.x, box.high.y, box.high.z}}};
 }
 
 std::string size_text(Vec3 size) {

@@ -23,6 +23,9 @@ std::uint64_t peak_memory_bytes();
 // program has, its total time and memory.
 nlohmann::ordered_json report_json(const compiler::Compilation& compilation);
 
+// Null for an empty box.
+nlohmann::ordered_json box_json(const Box3& box);
+
 // "20.6 x 7.52 x 24 mm"; "-" for that of an empty box.
 std::string size_text(Vec3 size);
 

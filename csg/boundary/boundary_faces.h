@@ -74,6 +74,9 @@ struct BoundaryPart {
   Box3 box;
 };
 
+// So many scan lines cost less than a plane problem.
+inline constexpr std::size_t kManyScanLines = 1000;
+
 // What of a face is boundary: none, one or two parts, which look to one side
 // and to the other.
 struct MeasuredFace {

@@ -22,7 +22,7 @@ namespace {
 using Triangle = std::array<Vec3, 3>;
 
 // Of a facet; the hull lies below it.
-struct Plane {
+struct HullPlane {
   Vec3 normal = Vec3(0);
   Vec3 point = Vec3(0);
 
@@ -47,8 +47,8 @@ class HullFacets {
     }
   }
 
-  std::vector<Plane> at(const Triangle& triangle) const {
-    std::vector<Plane> planes;
+  std::vector<HullPlane> at(const Triangle& triangle) const {
+    std::vector<HullPlane> planes;
     for (const Vec3& corner : triangle) {
       const auto name = names_.find(corner);
       if (!name) continue;
@@ -59,16 +59,16 @@ class HullFacets {
 
  private:
   VertexTable names_;
-  std::vector<std::vector<Plane>> planes_;
+  std::vector<std::vector<HullPlane>> planes_;
 };
 
 // Whether each point of the triangle has one of the planes near. What one plane
 // has not is cut into quarters.
-bool is_near(std::span<const Plane> planes, const Triangle& triangle,
+bool is_near(std::span<const HullPlane> planes, const Triangle& triangle,
              double depth, int most_cuts) {
   const bool has_plane = std::any_of(
       planes.begin(), planes.end(),
-      [&](const Plane& plane) { return plane.is_near(triangle, depth); });
+      [&](const HullPlane& plane) { return plane.is_near(triangle, depth); });
   if (has_plane || most_cuts == 0) return has_plane;
   const auto& [a, b, c] = triangle;
   const Vec3 ab = (a + b) / 2.0;

@@ -41,9 +41,9 @@ struct Entity {
   int bulges = 0;  // groups 42 that are not 0
 };
 
-class Reader {
+class DxfReader {
  public:
-  Reader(std::string_view bytes, const DxfOptions& options)
+  DxfReader(std::string_view bytes, const DxfOptions& options)
       : lines_(bytes),
         options_(options),
         most_lines_(options.most_lines + kMostLinesOfAByte * bytes.size()) {}
@@ -319,7 +319,7 @@ class Reader {
 }  // namespace
 
 DxfDrawing parse_dxf(std::string_view bytes, const DxfOptions& options) {
-  return Reader(bytes, options).read();
+  return DxfReader(bytes, options).read();
 }
 
 std::vector<std::string> unknown_entity_warnings(

@@ -9,9 +9,9 @@
 namespace lamina::csg {
 namespace {
 
-class Reader {
+class ObjReader {
  public:
-  explicit Reader(std::string_view bytes) : lines_(bytes) {}
+  explicit ObjReader(std::string_view bytes) : lines_(bytes) {}
 
   RawMesh read() {
     while (next_line()) {
@@ -88,6 +88,6 @@ class Reader {
 
 }  // namespace
 
-RawMesh parse_obj(std::string_view bytes) { return Reader(bytes).read(); }
+RawMesh parse_obj(std::string_view bytes) { return ObjReader(bytes).read(); }
 
 }  // namespace lamina::csg

@@ -9,9 +9,9 @@
 namespace lamina::csg {
 namespace {
 
-class Reader {
+class OffReader {
  public:
-  explicit Reader(std::string_view bytes)
+  explicit OffReader(std::string_view bytes)
       : lines_(bytes), most_lines_(bytes.size() / 2 + 1) {}
 
   RawMesh read() {
@@ -116,6 +116,6 @@ class Reader {
 
 }  // namespace
 
-RawMesh parse_off(std::string_view bytes) { return Reader(bytes).read(); }
+RawMesh parse_off(std::string_view bytes) { return OffReader(bytes).read(); }
 
 }  // namespace lamina::csg

@@ -50,9 +50,9 @@ struct Place {
   int depth = 0;
 };
 
-class Reader {
+class SvgReader {
  public:
-  explicit Reader(const SvgOptions& options) : options_(options) {}
+  explicit SvgReader(const SvgOptions& options) : options_(options) {}
 
   SvgDrawing read(const pugi::xml_node& document) {
     Place top;
@@ -287,7 +287,7 @@ class Reader {
 SvgDrawing parse_svg(std::string_view bytes, const SvgOptions& options) {
   pugi::xml_document document;
   parse_xml(bytes, "SVG", document);
-  return Reader(options).read(document);
+  return SvgReader(options).read(document);
 }
 
 }  // namespace lamina::csg

@@ -31,9 +31,9 @@ double angle_between_deg(Vec2 u, Vec2 v) {
   return angle < 0 ? angle + 360 : angle;
 }
 
-class Reader {
+class PathReader {
  public:
-  Reader(std::string_view data, const SvgCurves& curves)
+  PathReader(std::string_view data, const SvgCurves& curves)
       : numbers_(data), curves_(curves) {}
 
   std::vector<SvgSubpath> read() {
@@ -265,7 +265,7 @@ int lines_of_bezier(const SvgCurves& curves) {
 
 std::vector<SvgSubpath> parse_svg_path(std::string_view data,
                                        const SvgCurves& curves) {
-  return Reader(data, curves).read();
+  return PathReader(data, curves).read();
 }
 
 }  // namespace lamina::csg

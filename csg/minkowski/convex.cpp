@@ -328,6 +328,11 @@ bool is_convex(const Convex& body) {
          !has_reflex_edge(body) && is_seen_once(body);
 }
 
+Convex move(Convex body, const Vec3& shift) {
+  for (Vec3& vertex : body.vertices) vertex += shift;
+  return body;
+}
+
 Vec3 middle(const Convex& body) {
   Vec3 sum(0);
   for (const Vec3& vertex : body.vertices) sum += vertex;

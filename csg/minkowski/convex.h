@@ -80,6 +80,8 @@ Convex make_solid(std::vector<Vec3> vertices,
 // Whether the facets are the boundary of a convex solid.
 bool is_convex(const Convex& body);
 
+Convex move(Convex body, const Vec3& shift);
+
 // Middle of the vertices: a point of the body.
 Vec3 middle(const Convex& body);
 

@@ -56,11 +56,6 @@ Convex add_solids(const Convex& a, const Convex& b) {
 
 bool is_point(const Convex& body) { return body.vertices.size() == 1; }
 
-Convex move(Convex body, const Vec3& shift) {
-  for (Vec3& vertex : body.vertices) vertex += shift;
-  return body;
-}
-
 // Both have their edges; the sum does not.
 Convex add_convex(const Convex& a, const Convex& b) {
   if (is_point(a)) return move(b, a.vertices[0]);

@@ -61,11 +61,6 @@ Convex make_ball(double radius) {
   return ball;
 }
 
-Convex move(Convex body, const Vec3& shift) {
-  for (Vec3& vertex : body.vertices) vertex += shift;
-  return body;
-}
-
 }  // namespace
 
 Leaf make_shell(const Scene& solid, double radius) {

@@ -28,7 +28,6 @@ namespace fs = std::filesystem;
 constexpr const char* kDefaultFont = "Liberation Sans:style=Regular";
 constexpr const char* kBundledFonts = "/usr/share/openscad/fonts";
 constexpr unsigned kDotsPerInch = 100;
-constexpr FT_ULong kSymbolPage = 0xF000;
 
 const FcChar8* to_fc(const char* text) {
   return reinterpret_cast<const FcChar8*>(text);

@@ -12,8 +12,6 @@
 namespace lamina::text {
 namespace {
 
-// Characters of the first page of symbol fonts stand at U+F000.
-constexpr hb_codepoint_t kSymbolPage = 0xF000;
 constexpr hb_codepoint_t kPageSize = 0x100;
 
 // HarfBuzz reads malformed UTF-8 as a replacement character.

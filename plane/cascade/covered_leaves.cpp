@@ -12,7 +12,7 @@ namespace lamina::plane {
 namespace {
 
 // What is nearer than this [mm] to a leaf's border is not covered by it.
-constexpr double kMargin = 16 * kTieDistance;
+constexpr double kCoverMargin = 16 * kTieDistance;
 
 // An operator has a grid where at least so many leaves may cover others.
 constexpr std::uint32_t kFewestLeaves = 16;
@@ -107,7 +107,7 @@ void CoveredLeaves::make_grids(std::span<const LeafPart> parts) {
     }
     Grid& grid = all[node];
     if (grid.leaf_count < kFewestLeaves ||
-        std::min(grid.box.size().x, grid.box.size().y) < kMargin) {
+        std::min(grid.box.size().x, grid.box.size().y) < kCoverMargin) {
       continue;
     }
     const std::uint32_t columns = std::clamp(grid.leaf_count / kLeavesPerColumn,
@@ -149,11 +149,11 @@ void CoveredLeaves::visit_columns(const Chain& chain, const Grid& grid,
     const auto y_at = [&](double x) {
       return from.y + slope * (std::clamp(x, from.x, to.x) - from.x);
     };
-    const int last = grid.column_of(to.x + kMargin);
-    for (int column = grid.column_of(from.x - kMargin); column <= last;
+    const int last = grid.column_of(to.x + kCoverMargin);
+    for (int column = grid.column_of(from.x - kCoverMargin); column <= last;
          ++column) {
-      const double left = y_at(grid.left_of(column) - kMargin);
-      const double right = y_at(grid.left_of(column + 1) + kMargin);
+      const double left = y_at(grid.left_of(column) - kCoverMargin);
+      const double right = y_at(grid.left_of(column + 1) + kCoverMargin);
       visit(column, Reach{std::min(left, right), std::max(left, right)});
     }
   }
@@ -161,8 +161,8 @@ void CoveredLeaves::visit_columns(const Chain& chain, const Grid& grid,
 
 bool CoveredLeaves::is_covered(const LeafPart& part, const Grid& grid) {
   if (!grid.box.holds(part.box)) return false;
-  const int first = grid.column_of(part.box.low.x - kMargin);
-  const int last = grid.column_of(part.box.high.x + kMargin);
+  const int first = grid.column_of(part.box.low.x - kCoverMargin);
+  const int last = grid.column_of(part.box.high.x + kCoverMargin);
   reach_.assign(static_cast<std::size_t>(last - first) + 1, Reach());
   for (const Chain& chain : part.chains) {
     visit_columns(chain, grid, [&](int column, const Reach& reach) {
@@ -181,7 +181,8 @@ bool CoveredLeaves::is_covered(const LeafPart& part, const Grid& grid) {
     };
     const ColumnBits& bits = grid.covered[static_cast<std::size_t>(column)];
     bool is_full = true;
-    visit_words(row_of(own.low - kMargin), row_of(own.high + kMargin) + 1,
+    visit_words(row_of(own.low - kCoverMargin),
+                row_of(own.high + kCoverMargin) + 1,
                 [&](std::size_t word, std::uint64_t mask) {
                   is_full = is_full && (bits[word] & mask) == mask;
                 });
@@ -205,17 +206,17 @@ void CoveredLeaves::cover(const LeafPart& part, Grid& grid) {
     });
   }
   for (int column = first; column <= last; ++column) {
-    if (grid.left_of(column) < part.box.low.x + kMargin ||
-        grid.left_of(column + 1) > part.box.high.x - kMargin) {
+    if (grid.left_of(column) < part.box.low.x + kCoverMargin ||
+        grid.left_of(column + 1) > part.box.high.x - kCoverMargin) {
       continue;
     }
     const auto& [one, other] = sides_[static_cast<std::size_t>(column - first)];
     const double low = std::min(one.high, other.high);
     const double high = std::max(one.low, other.low);
     const double begin =
-        std::ceil((low + kMargin - grid.box.low.y) / grid.row_height);
+        std::ceil((low + kCoverMargin - grid.box.low.y) / grid.row_height);
     const double end =
-        std::floor((high - kMargin - grid.box.low.y) / grid.row_height);
+        std::floor((high - kCoverMargin - grid.box.low.y) / grid.row_height);
     ColumnBits& bits = grid.covered[static_cast<std::size_t>(column)];
     if (begin >= end) continue;
     visit_words(

@@ -3,13 +3,13 @@
 namespace lamina::plane {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoDifference = 0xffffffff;
 
-// Of each node: the difference below it with the most levels, or kNone.
+// Of each node: the difference below it with the most levels, or kNoDifference.
 std::vector<std::uint32_t> find_next_levels(const BooleanProgram& program) {
   const std::vector<BooleanNode>& nodes = program.nodes;
   std::vector<std::uint32_t> levels(nodes.size(), 1);
-  std::vector<std::uint32_t> next(nodes.size(), kNone);
+  std::vector<std::uint32_t> next(nodes.size(), kNoDifference);
   // Children come after their parents.
   for (std::size_t i = nodes.size(); i-- > 1;) {
     const BooleanNode& node = nodes[i];
@@ -38,7 +38,7 @@ DifferenceLevels difference_levels(const BooleanProgram& program) {
     if (i == root) {
       nodes[i] = {static_cast<std::uint32_t>(levels.programs.size()), kRoot};
       const std::uint32_t count =
-          node.child_count - (next[i] == kNone ? 0U : 1U);
+          node.child_count - (next[i] == kNoDifference ? 0U : 1U);
       levels.programs.push_back({{{node.op, kRoot, false, count}}, {}});
       root = next[i];
       continue;

@@ -21,7 +21,7 @@ constexpr double kFlatDistance = 1e-9;
 // Sine of the angle by which a corner may be reflex and count as straight.
 constexpr double kStraightSine = 1e-9;
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr std::uint32_t kNoOpposite = ~std::uint32_t{0};
 
 // Faces as rings of half-edges. Half-edge 3 t + k runs from corner k of
 // triangle t to the next one.
@@ -47,7 +47,7 @@ class FaceMerger {
     for (std::uint32_t h = 0; h < next_.size(); ++h) {
       // cppcheck-suppress arrayIndexThenCheck ; 'h < opposites_[h]' takes each
       // once
-      if (opposites_[h] != kNone && h < opposites_[h] && !is_gone_[h])
+      if (opposites_[h] != kNoOpposite && h < opposites_[h] && !is_gone_[h])
         try_to_join(h);
     }
     std::vector<Face> faces;
@@ -94,7 +94,7 @@ class FaceMerger {
                         std::max(origin(h), origin(next_[h])), h);
     }
     std::sort(keys.begin(), keys.end());
-    opposites_.assign(next_.size(), kNone);
+    opposites_.assign(next_.size(), kNoOpposite);
     for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
       const auto is_same = [&](std::size_t i) {
         return std::get<0>(keys[i]) == std::get<0>(keys[begin]) &&

@@ -31,7 +31,7 @@ namespace lamina::plane {
 namespace {
 
 // A corner of the ring; a point that ends a bridge is there twice.
-struct Corner {
+struct RingCorner {
   Vec2 point;
   std::uint32_t vertex = 0;  // of the region
   std::uint32_t previous = 0;
@@ -189,7 +189,7 @@ class EarClipper {
   std::uint32_t choose_duplicate(std::uint32_t outer, std::uint32_t best,
                                  std::uint32_t from) const {
     const Vec2 q = corners_[best].point;
-    const Corner& tip = corners_[from];
+    const RingCorner& tip = corners_[from];
     const bool is_touching = tip.point == q;
     for (std::uint32_t c = outer;;) {
       if (corners_[c].point == q) {
@@ -206,7 +206,7 @@ class EarClipper {
 
   // True where the direction to p lies inside the corner's angle.
   bool sees_inside(std::uint32_t corner, Vec2 p) const {
-    const Corner& c = corners_[corner];
+    const RingCorner& c = corners_[corner];
     const Vec2 before = corners_[c.previous].point;
     const Vec2 after = corners_[c.next].point;
     const bool left_of_in = orientation(before, c.point, p) >= 0;
@@ -216,13 +216,13 @@ class EarClipper {
   }
 
   bool is_reflex(std::uint32_t corner) const {
-    const Corner& c = corners_[corner];
+    const RingCorner& c = corners_[corner];
     return orientation(corners_[c.previous].point, c.point,
                        corners_[c.next].point) < 0;
   }
 
   bool is_flat(std::uint32_t corner) const {
-    const Corner& c = corners_[corner];
+    const RingCorner& c = corners_[corner];
     return orientation(corners_[c.previous].point, c.point,
                        corners_[c.next].point) == 0;
   }
@@ -234,7 +234,7 @@ class EarClipper {
     place_.resize(corners_.size());
     behind_.resize(corners_.size());
     behind_at_tip_.resize(corners_.size());
-    for (const Corner& corner : corners_) points_.push_back(corner.point);
+    for (const RingCorner& corner : corners_) points_.push_back(corner.point);
     corner_ = start;
     std::uint32_t c = start;
     do {
@@ -285,7 +285,7 @@ class EarClipper {
 
   // The ring runs back on itself here, as at bridges whose hole is gone.
   bool is_spike(std::uint32_t corner) const {
-    const Corner& c = corners_[corner];
+    const RingCorner& c = corners_[corner];
     const Vec2 a = corners_[c.previous].point;
     const Vec2 b = corners_[c.next].point;
     if (a == c.point || b == c.point) return true;
@@ -296,7 +296,7 @@ class EarClipper {
   // corner that was convex stays so. One that is not an ear is kept behind the
   // corner that is in its way.
   bool is_ear(std::uint32_t corner) {
-    const Corner& c = corners_[corner];
+    const RingCorner& c = corners_[corner];
     const Vec2 a = corners_[c.previous].point;
     const Vec2 b = corners_[c.next].point;
     if (orientation(a, c.point, b) <= 0) return false;
@@ -369,7 +369,7 @@ class EarClipper {
 
   // Cuts the corner off and walks past its neighbour.
   void cut(std::uint32_t corner) {
-    const Corner c = corners_[corner];
+    const RingCorner c = corners_[corner];
     triangles_.push_back(
         {corners_[c.previous].vertex, c.vertex, corners_[c.next].vertex});
     is_gone_[corner] = true;
@@ -399,7 +399,7 @@ class EarClipper {
 
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
-  std::vector<Corner> corners_;
+  std::vector<RingCorner> corners_;
   std::vector<Vec2> points_;  // of the corners
   std::vector<bool> is_gone_;
   std::vector<std::array<std::uint32_t, 3>>& triangles_;

@@ -20,7 +20,7 @@ Json reference_to(std::string_view schema) {
   return {{"$ref", "#/components/schemas/" + std::string(schema)}};
 }
 
-Json content(std::string_view type, std::string_view schema) {
+Json content_json(std::string_view type, std::string_view schema) {
   Json media = Json::object();
   if (!schema.empty()) media["schema"] = reference_to(schema);
   return {{std::string(type.substr(0, type.find(';'))), std::move(media)}};
@@ -32,8 +32,9 @@ Json header(const char* description) {
 
 // The answers that are problems, by their status.
 Json problem_answer(unsigned status) {
-  Json answer = {{"description", http::title_of(status)},
-                 {"content", content("application/problem+json", "Problem")}};
+  Json answer = {
+      {"description", http::title_of(status)},
+      {"content", content_json("application/problem+json", "Problem")}};
   if (status == 429 || status == 503) {
     answer["headers"]["Retry-After"] =
         header("Seconds after which to ask again");
@@ -59,9 +60,10 @@ Json parameters_of(const Route& route, bool is_get,
           {{"type", "string"}, {"enum", formats}, {"default", "slc"}}}});
   }
   if (route.takes_order() && is_get) {
-    parameters.push_back({{"name", "order"},
-                          {"in", "query"},
-                          {"content", content("application/json", "Order")}});
+    parameters.push_back(
+        {{"name", "order"},
+         {"in", "query"},
+         {"content", content_json("application/json", "Order")}});
     parameters.push_back({{"name", "If-None-Match"},
                           {"in", "header"},
                           {"schema", {{"type", "string"}}}});
@@ -73,7 +75,7 @@ Json answers_of(const Route& route, bool is_get) {
   Json answers;
   Json& good = answers["200"];
   good = {{"description", route.summary},
-          {"content", content(route.type, route.schema)}};
+          {"content", content_json(route.type, route.schema)}};
   if (route.takes_order()) {
     good["headers"]["ETag"] =
         header("Equal for equal answers; missing while a file changes");
@@ -104,7 +106,7 @@ Json operation_of(const Route& route, bool is_get,
       {"parameters", parameters_of(route, is_get, formats)}};
   if (!is_get) {
     operation["requestBody"] = {
-        {"content", content("application/json", "Order")}};
+        {"content", content_json("application/json", "Order")}};
   }
   operation["responses"] = answers_of(route, is_get);
   return operation;

@@ -19,7 +19,7 @@
 namespace lamina::shop {
 namespace {
 
-using Json = nlohmann::json;
+using ReadJson = nlohmann::json;
 
 constexpr int kDeepest = 8;  // levels of objects and lists
 
@@ -30,24 +30,25 @@ constexpr std::array<std::string_view, 9> kMembers = {
 // Refuses what readers of JSON understand in different ways.
 class Watch {
  public:
-  bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
+  bool operator()(int depth, ReadJson::parse_event_t event,
+                  const ReadJson& parsed) {
     switch (event) {
-      case Json::parse_event_t::object_start:
-      case Json::parse_event_t::array_start:
+      case ReadJson::parse_event_t::object_start:
+      case ReadJson::parse_event_t::array_start:
         if (depth >= kDeepest) {
           throw OrderError(fmt::format(
               "an order is nested at most {} levels deep", kDeepest));
         }
         members_.emplace_back();
         break;
-      case Json::parse_event_t::object_end:
-      case Json::parse_event_t::array_end:
+      case ReadJson::parse_event_t::object_end:
+      case ReadJson::parse_event_t::array_end:
         members_.pop_back();
         break;
-      case Json::parse_event_t::key:
+      case ReadJson::parse_event_t::key:
         take_key(parsed.get_ref<const std::string&>());
         break;
-      case Json::parse_event_t::value:
+      case ReadJson::parse_event_t::value:
         break;
     }
     return true;
@@ -62,18 +63,18 @@ class Watch {
   std::vector<std::set<std::string>> members_;  // of each open level
 };
 
-Json parse(std::string_view text) {
+ReadJson parse(std::string_view text) {
   // Where the parser would see the end.
   if (text.find('\0') != std::string_view::npos) {
     throw MalformedOrder("the order is not JSON: it has a zero byte");
   }
   Watch watch;
   try {
-    return Json::parse(text, std::ref(watch));
-  } catch (const Json::parse_error& error) {
+    return ReadJson::parse(text, std::ref(watch));
+  } catch (const ReadJson::parse_error& error) {
     throw MalformedOrder(
         fmt::format("the order is not JSON: see its character {}", error.byte));
-  } catch (const Json::out_of_range&) {
+  } catch (const ReadJson::out_of_range&) {
     throw OrderError("a number of the order is beyond those of a double");
   }
 }
@@ -83,7 +84,7 @@ void refuse_zero_bytes(const std::string& text) {
   throw OrderError("a text of the order has a zero byte");
 }
 
-void drop_nulls(Json& object) {
+void drop_nulls(ReadJson& object) {
   for (auto member = object.begin(); member != object.end();) {
     refuse_zero_bytes(member.key());
     member = member->is_null() ? object.erase(member) : std::next(member);
@@ -91,16 +92,16 @@ void drop_nulls(Json& object) {
 }
 
 // Makes equal values equal texts.
-void normalize(Json& json) {
+void normalize(ReadJson& json) {
   if (json.is_number()) {
-    json = detail::json_number<Json>(json.get<double>());
+    json = detail::json_number<ReadJson>(json.get<double>());
   }
   if (json.is_string()) refuse_zero_bytes(json.get_ref<const std::string&>());
   if (json.is_object()) drop_nulls(json);
   if (json.is_structured()) std::ranges::for_each(json, normalize);
 }
 
-void refuse_unknown(const Json& order) {
+void refuse_unknown(const ReadJson& order) {
   for (const auto& [name, value] : order.items()) {
     if (std::ranges::find(kMembers, name) != kMembers.end()) continue;
     const std::string guess = did_you_mean(name, kMembers);
@@ -111,8 +112,8 @@ void refuse_unknown(const Json& order) {
 }
 
 template <typename T>
-std::optional<T> member(const Json& order, const char* name,
-                        bool (Json::*is_fit)() const noexcept,
+std::optional<T> member(const ReadJson& order, const char* name,
+                        bool (ReadJson::*is_fit)() const noexcept,
                         const char* type) {
   const auto found = order.find(name);
   if (found == order.end()) return std::nullopt;
@@ -122,14 +123,14 @@ std::optional<T> member(const Json& order, const char* name,
   return found->get<T>();
 }
 
-std::optional<double> number(const Json& order, const char* name) {
-  return member<double>(order, name, &Json::is_number, "a number");
+std::optional<double> number(const ReadJson& order, const char* name) {
+  return member<double>(order, name, &ReadJson::is_number, "a number");
 }
-std::optional<bool> truth(const Json& order, const char* name) {
-  return member<bool>(order, name, &Json::is_boolean, "true or false");
+std::optional<bool> truth(const ReadJson& order, const char* name) {
+  return member<bool>(order, name, &ReadJson::is_boolean, "true or false");
 }
-std::optional<std::string> text(const Json& order, const char* name) {
-  return member<std::string>(order, name, &Json::is_string, "a text");
+std::optional<std::string> text(const ReadJson& order, const char* name) {
+  return member<std::string>(order, name, &ReadJson::is_string, "a text");
 }
 
 int hex_digit(char c) {
@@ -202,7 +203,7 @@ std::string in_own_names(std::string_view words) {
 
 Order read_order(std::string_view json) {
   if (json.empty()) return {};
-  Json all = parse(json);
+  ReadJson all = parse(json);
   if (!all.is_object()) {
     throw OrderError("an order must be an object, such as {\"layer\": 0.05}");
   }

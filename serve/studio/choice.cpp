@@ -11,43 +11,43 @@
 namespace lamina::studio {
 namespace {
 
-using Json = nlohmann::json;
+using ReadJson = nlohmann::json;
 
 // Reads members of an object, and says what is wrong with one.
 class Members {
  public:
-  Members(const Json& json, std::string name)
+  Members(const ReadJson& json, std::string name)
       : json_(json), name_(std::move(name)) {
     if (!json.is_object()) fail("an object");
   }
 
   std::string text(const char* key) const {
-    const Json* value = find(key);
+    const ReadJson* value = find(key);
     if (value == nullptr) return {};
     if (!value->is_string()) fail(fmt::format("a text as '{}'", key));
     return value->get<std::string>();
   }
   double number(const char* key) const {
-    const Json* value = find(key);
+    const ReadJson* value = find(key);
     if (value == nullptr) return 0;
     if (!value->is_number()) fail(fmt::format("a number as '{}'", key));
     return value->get<double>();
   }
   bool truth(const char* key) const {
-    const Json* value = find(key);
+    const ReadJson* value = find(key);
     if (value == nullptr) return false;
     if (!value->is_boolean()) fail(fmt::format("true or false as '{}'", key));
     return value->get<bool>();
   }
   std::uint64_t count(const char* key) const {
-    const Json* value = find(key);
+    const ReadJson* value = find(key);
     if (value == nullptr) return 0;
     if (!value->is_number_unsigned()) {
       fail(fmt::format("a whole number as '{}'", key));
     }
     return value->get<std::uint64_t>();
   }
-  const Json* find(const char* key) const {
+  const ReadJson* find(const char* key) const {
     const auto found = json_.find(key);
     return found == json_.end() || found->is_null() ? nullptr : &*found;
   }
@@ -57,11 +57,11 @@ class Members {
     throw ChoiceError(fmt::format("{} needs {}", name_, expected));
   }
 
-  const Json& json_;
+  const ReadJson& json_;
   std::string name_;
 };
 
-ParameterSet read_values(const Json& json) {
+ParameterSet read_values(const ReadJson& json) {
   if (!json.is_object()) throw ChoiceError("'values' needs an object");
   ParameterSet values;
   for (const auto& [name, value] : json.items()) {
@@ -73,7 +73,7 @@ ParameterSet read_values(const Json& json) {
   return values;
 }
 
-JobChoice read_job(const Json& json) {
+JobChoice read_job(const ReadJson& json) {
   const Members members(json, "'settings'");
   return {.layer_thickness = members.number("layer"),
           .min_feature = members.number("minFeature"),
@@ -86,17 +86,18 @@ JobChoice read_job(const Json& json) {
 }  // namespace
 
 Choice read_choice(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
+  const ReadJson json = ReadJson::parse(text, nullptr, false);
   if (json.is_discarded()) throw ChoiceError("the body is not JSON");
   const Members members(json, "the body");
   Choice choice;
   choice.client = members.text("client");
   choice.number = members.count("number");
   choice.design = members.text("design");
-  if (const Json* values = members.find("values")) {
+  if (const ReadJson* values = members.find("values")) {
     choice.values = read_values(*values);
   }
-  if (const Json* job = members.find("settings")) choice.job = read_job(*job);
+  if (const ReadJson* job = members.find("settings"))
+    choice.job = read_job(*job);
   choice.form = members.text("form");
   if (members.find("z") != nullptr) choice.z = members.number("z");
   choice.format = members.text("format");

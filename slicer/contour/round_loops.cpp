@@ -31,7 +31,7 @@ constexpr double kTreeReach = 1.001;
 // loops are linked without the ray. Where edges crowd, the ray takes the tips
 // of spikes for touches, event point by event point, and an edge may drift
 // through hundreds of hot pixels: rounds without end.
-constexpr int kMostRounds = 8;
+constexpr int kMostRoutings = 8;
 
 double to_float(double value) {
   // Adding 0 turns -0 to 0: equal points shall have equal bytes. In float32:
@@ -154,12 +154,12 @@ void LoopRounder::snap(plane::Contours& contours) {
   const double scale = kUnit / spacing_;
   for (Vec2& point : contours.points) point *= scale;
   int moves = 0;
-  for (int round = 0; route_through_hot_pixels(contours, round == kMostRounds);
-       ++round) {
+  for (int round = 0;
+       route_through_hot_pixels(contours, round == kMostRoutings); ++round) {
     // Snapped for the first time, or edges met foreign cells.
     moves += moves_of_round_;
     most_moves_ = std::max(most_moves_, moves);
-    if (round == kMostRounds) {
+    if (round == kMostRoutings) {
       link_planar_loops(contours);
       break;
     }

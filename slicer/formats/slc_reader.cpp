@@ -15,8 +15,6 @@ namespace lamina::slicer {
 namespace {
 
 constexpr std::size_t kLongestHeader = 2048;
-constexpr std::size_t kReservedSize = 256;
-constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
 
 // Vertices are read this many at a time, so that a wrong count meets the end of
 // the file before it has cost memory.
@@ -135,7 +133,7 @@ std::string SlcReader::read_header_text() {
       fail("the header has no end (0x1A) within 2048 bytes");
     }
   }
-  std::array<char, kReservedSize> reserved;
+  std::array<char, kSlcReservedSize> reserved;
   read(reserved.data(), reserved.size(), "the 256 reserved bytes");
   return text;
 }
@@ -170,7 +168,7 @@ bool SlcReader::read_layer(SlcLayer& layer) {
   const auto boundaries = read_value<std::uint32_t>("the head of a layer");
   require_finite(z);
   layer.z = static_cast<double>(z) * mm_per_unit_;
-  if (boundaries == kEndOfLayers) {
+  if (boundaries == kSlcEndOfLayers) {
     facts_.top = layer.z;
     layer.boundaries.clear();
     require_end();

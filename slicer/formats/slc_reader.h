@@ -20,6 +20,11 @@
 
 namespace lamina::slicer {
 
+// Bytes behind the header's text.
+inline constexpr std::size_t kSlcReservedSize = 256;
+// Stands for the count of boundaries behind the last layer.
+inline constexpr std::uint32_t kSlcEndOfLayers = 0xFFFFFFFF;
+
 struct SlcLayer {
   double z = 0;          // lower side [mm]
   double thickness = 0;  // of the row in force [mm]

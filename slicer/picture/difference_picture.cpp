@@ -13,14 +13,13 @@
 namespace lamina::slicer {
 namespace {
 
-constexpr unsigned kMargin = 18;      // [pixels]
-constexpr unsigned kFieldSize = 680;  // of both fields [pixels]
-constexpr unsigned kTopStrip = 84;    // of title and numbers [pixels]
-constexpr unsigned kFootStrip = 84;   // of scales and legend [pixels]
-constexpr double kTitleSize = 16;     // height of a capital [pixels]
-constexpr double kTextSize = 12;
-constexpr double kPadding = 30;        // between a frame and the layer [pixels]
-constexpr double kOutlineWidth = 1.5;  // [pixels]
+constexpr unsigned kFieldSize = 680;           // of both fields [pixels]
+constexpr unsigned kDifferenceTopStrip = 84;   // of title and numbers [pixels]
+constexpr unsigned kDifferenceFootStrip = 84;  // of scales and legend [pixels]
+constexpr double kDifferenceTitleSize = 16;    // height of a capital [pixels]
+constexpr double kDifferencePadding =
+    30;  // between a frame and the layer [pixels]
+constexpr double kDifferenceOutline = 1.5;  // [pixels]
 // Differences thinner than this are left to the magnified field [pixels].
 constexpr double kLeastSeen = 0.02;
 
@@ -45,7 +44,8 @@ class DifferencePicture {
                     const LayerDifference& difference)
       : difference_(difference),
         image_(2 * kFieldSize + 3 * kMargin,
-               kTopStrip + kFieldSize + kFootStrip, kPaper) {
+               kDifferenceTopStrip + kFieldSize + kDifferenceFootStrip,
+               kPaper) {
     const std::array regions = {region_of(a), region_of(b)};
     const std::array turned = {regions[1], regions[0]};
     both_ = to_contours(plane::intersect(regions));
@@ -57,11 +57,12 @@ class DifferencePicture {
   }
 
   Image draw(const std::array<std::string, 2>& names) {
-    const Rectangle whole = {kMargin, kTopStrip, kFieldSize, kFieldSize};
-    const Rectangle detail = {2 * kMargin + kFieldSize, kTopStrip, kFieldSize,
-                              kFieldSize};
+    const Rectangle whole = {kMargin, kDifferenceTopStrip, kFieldSize,
+                             kFieldSize};
+    const Rectangle detail = {2 * kMargin + kFieldSize, kDifferenceTopStrip,
+                              kFieldSize, kFieldSize};
     draw_words();
-    const PixelMap map = fit(bounds_, whole, kPadding);
+    const PixelMap map = fit(bounds_, whole, kDifferencePadding);
     draw_field(whole, map);
     const Box2 window = detail_bounds();
     mark(whole, map, window);
@@ -91,7 +92,7 @@ class DifferencePicture {
     const double room = image_.width - 2.0 * kMargin;
     const std::string head = fmt::format("layer {}    z {:.6g} mm",
                                          difference_.number, difference_.z);
-    draw_text(image_, head, {kMargin, 36}, kTitleSize);
+    draw_text(image_, head, {kMargin, 36}, kDifferenceTitleSize);
     const double distance = difference_.distance.distance;
     const std::string words = fmt::format(
         "only a {:.6f} mm²    only b {:.6f} mm²    {}",
@@ -162,7 +163,7 @@ class DifferencePicture {
     }
     if (begin >= end) return;
     lines.add_stroke(from + begin * (to - from), from + end * (to - from),
-                     kOutlineWidth);
+                     kDifferenceOutline);
   }
 
   // Draws a frame around what the other field shows.

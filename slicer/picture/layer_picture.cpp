@@ -15,14 +15,11 @@
 namespace lamina::slicer {
 namespace {
 
-constexpr unsigned kMargin = 18;     // [pixels]
 constexpr unsigned kTopStrip = 78;   // of title and measures [pixels]
 constexpr unsigned kFootStrip = 46;  // of the scale [pixels]
-constexpr double kTitleSize = 17;    // height of a capital [pixels]
-constexpr double kTextSize = 12;
 constexpr double kMostPadding = 48;  // between the frame and the layer [pixels]
 constexpr double kPaddingShare = 0.1;  // of the frame's width, at most
-constexpr double kOutlineWidth = 1.8;  // [pixels]
+constexpr double kLayerOutline = 1.8;  // [pixels]
 constexpr double kMarkWidth = 4;       // of thin places [pixels]
 constexpr double kRingRadius = 9;      // around the thinnest places [pixels]
 
@@ -64,7 +61,7 @@ class LayerPicture {
     draw_words(title);
     draw_tile(image_, field_);
     draw_grid();
-    draw_layer(image_, layer_, field_, map_, kOutlineWidth);
+    draw_layer(image_, layer_, field_, map_, kLayerOutline);
     const double end =
         draw_scale(image_, {kMargin, image_.height - 20.0}, 0.25 * field_.width,
                    pixels_per_mm(), kTextSize);

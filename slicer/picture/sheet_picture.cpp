@@ -9,13 +9,11 @@
 namespace lamina::slicer {
 namespace {
 
-constexpr unsigned kMargin = 18;       // around tiles and the sheet [pixels]
-constexpr double kTitleSize = 17;      // height of a capital [pixels]
 constexpr double kLabelSize = 10;      // the same, under a tile
 constexpr unsigned kTitleHeight = 62;  // of the strip at the top [pixels]
 constexpr unsigned kLabelHeight = 26;  // of the strip under a tile [pixels]
-constexpr double kPadding = 12;        // between a tile's frame and its layer
-constexpr double kOutlineWidth = 1.3;  // [pixels]
+constexpr double kTilePadding = 12;    // between a tile's frame and its layer
+constexpr double kTileOutline = 1.3;   // [pixels]
 
 // Sheets are at most this much higher than wide.
 constexpr double kTallest = 0.78;
@@ -137,8 +135,8 @@ Image draw_sheet(const std::vector<Layer>& layers, const std::string& title,
   for (unsigned i = 0; i < chosen.size(); ++i) {
     const Rectangle tile = grid.tile(i);
     draw_tile(image, tile);
-    draw_layer(image, layers[chosen[i]], tile, fit(bounds, tile, kPadding),
-               kOutlineWidth);
+    draw_layer(image, layers[chosen[i]], tile, fit(bounds, tile, kTilePadding),
+               kTileOutline);
     labels.draw(image, chosen[i], tile);
   }
   return image;

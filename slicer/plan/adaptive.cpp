@@ -30,9 +30,6 @@ constexpr double kReach = kTieDistance;
 // Plies times plies of the thickest layer: 300 MB and a minute.
 constexpr double kMostStates = 3e7;
 
-// What a plane problem costs less than.
-constexpr std::size_t kManyLines = 1000;
-
 // Whether a face goes on from a corner upwards, and downwards.
 struct Ways {
   bool up = false;
@@ -270,7 +267,8 @@ class SurfaceReader {
  private:
   void read_slope(const csg::OpenFace& face) {
     if (!limits_.is_wanted(face.box)) return;
-    const csg::MeasuredFace measured = finder_.measure(face, kManyLines);
+    const csg::MeasuredFace measured =
+        finder_.measure(face, csg::kManyScanLines);
     if (measured.is_exact) {
       for (const csg::BoundaryPart& part : measured.parts) {
         limits_.take_slope(part.normal, part.box);
@@ -302,7 +300,8 @@ class SurfaceReader {
           },
           [&](std::uint32_t) { is_met = true; });
       if (!is_met) continue;
-      const csg::MeasuredFace measured = finder_.measure(wall, kManyLines);
+      const csg::MeasuredFace measured =
+          finder_.measure(wall, csg::kManyScanLines);
       if (measured.is_exact && measured.parts.empty()) continue;
       solve(wall);
     }

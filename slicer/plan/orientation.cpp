@@ -22,9 +22,6 @@ namespace {
 // Edges that a choice may cut: about 30 ms. Small faces beyond are sampled.
 constexpr std::size_t kMostEdges = 150'000;
 
-// What a plane problem costs less than.
-constexpr std::size_t kManyLines = 1000;
-
 // What looks down by more than 45° wants supports; 45° but for rounding does
 // not.
 constexpr double kOverhang = std::numbers::sqrt2 / 2 + 1e-6;
@@ -228,7 +225,8 @@ SurfaceHeights surface_heights(const csg::Scene& scene,
       if (sign > 0 ? !may_be_lowest(face.box) : !may_be_highest(face.box)) {
         break;
       }
-      const csg::MeasuredFace measured = finder.measure(face, kManyLines);
+      const csg::MeasuredFace measured =
+          finder.measure(face, csg::kManyScanLines);
       if (measured.is_exact) {
         for (const csg::BoundaryPart& part : measured.parts) take(part.box);
       } else {

@@ -18,9 +18,6 @@
 namespace lamina::slicer {
 namespace {
 
-// Points that one task takes.
-constexpr std::size_t kPointsPerTask = 1 << 12;
-
 // A wall rises from the floor by more than 50°.
 const double kMostUpright = std::cos(0.8726646259971648);
 
@@ -37,7 +34,7 @@ constexpr double kMouthShare = 0.9;
 const double kSteepest = std::tan(0.3490658503988659);
 
 // Floors of one groove have points no farther apart than this [pitches].
-constexpr double kJoined = 2 * kCover;
+constexpr double kSameFloor = 2 * kCover;
 
 // The share of a floor that is no deeper than its groove is said to be.
 constexpr double kDepthShare = 0.9;
@@ -219,7 +216,7 @@ class Grooves {
     joined_ = UnionFind(floors_.size());
     for (std::uint32_t i = 0; i < floors_.size(); ++i) {
       for (const std::uint32_t other :
-           near.points_within(places[i].place, kJoined * samples.pitch)) {
+           near.points_within(places[i].place, kSameFloor * samples.pitch)) {
         joined_.unite(i, other);
       }
     }

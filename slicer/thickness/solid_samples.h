@@ -38,6 +38,9 @@ struct SurfacePoint {
 // facet.
 inline constexpr double kCover = 1.2248;
 
+// Points that one task takes.
+inline constexpr std::size_t kPointsPerTask = 1 << 12;
+
 // The cells of a cubic lattice whose middles are inside a solid, in runs along
 // y: one cell follows the other.
 class SolidCells {

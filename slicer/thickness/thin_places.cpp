@@ -22,9 +22,6 @@ namespace {
 // as neighbours may be along a surface, and twice that where it bends.
 constexpr double kJoined = 2 * kCover;
 
-// Points that one task takes.
-constexpr std::size_t kPointsPerTask = 1 << 12;
-
 // A ball that touches two sides is empty where no point is within this share of
 // its radius: facets of a wire, down to those of a prong of five sides, bend
 // into the ball that touches one of them beside its middle.

@@ -8,11 +8,11 @@ namespace lamina::csg {
 
 namespace {
 
-using Table = std::unordered_map<std::string_view, std::string_view>;
+using ColorTable = std::unordered_map<std::string_view, std::string_view>;
 
-Table read_table() {
+ColorTable read_table() {
   constexpr std::size_t kDigits = 6;
-  Table table;
+  ColorTable table;
   for (std::string_view rest = kColorTable; !rest.empty();) {
     const std::size_t end = rest.find('\n');
     table.emplace(rest.substr(0, end - kDigits - 1),
@@ -44,7 +44,7 @@ std::optional<std::array<float, 4>> parse_hex(std::string_view digits) {
 std::optional<std::array<float, 4>> find_color(std::string_view name) {
   if (name == "transparent") return std::array<float, 4>{0, 0, 0, 0};
   if (name.starts_with('#')) return parse_hex(name.substr(1));
-  static const Table table = read_table();
+  static const ColorTable table = read_table();
   const auto found = table.find(name);
   return found == table.end() ? std::nullopt : parse_hex(found->second);
 }

@@ -109,11 +109,12 @@ std::span<const BuiltinFunctionRow> program_rows() {
   return kRows;
 }
 
-using Table = std::unordered_map<std::string_view, const BuiltinFunctionRow*>;
+using FunctionTable =
+    std::unordered_map<std::string_view, const BuiltinFunctionRow*>;
 
-const Table& builtin_table() {
-  static const Table table = [] {
-    Table all;
+const FunctionTable& builtin_table() {
+  static const FunctionTable table = [] {
+    FunctionTable all;
     for (const auto rows :
          {number_rows(), string_rows(), vector_rows(), program_rows()}) {
       for (const BuiltinFunctionRow& row : rows) {

@@ -83,8 +83,8 @@ Facets facets_of(const ModuleCall& call) {
 namespace {
 
 template <typename... Parts>
-void warn(SourceRange place, Frame& frame, fmt::format_string<Parts...> words,
-          Parts&&... parts) {
+void warn_at(SourceRange place, Frame& frame,
+             fmt::format_string<Parts...> words, Parts&&... parts) {
   frame.in.warn(place, fmt::format(words, std::forward<Parts>(parts)...));
 }
 
@@ -114,11 +114,11 @@ bool has_child(int n, SourceRange place, Frame& frame) {
     return true;
   }
   if (is_2021 && n < 0) {
-    warn({}, frame, "Negative children index ({}) not allowed", n);
+    warn_at({}, frame, "Negative children index ({}) not allowed", n);
   } else {
-    warn(is_2021 ? SourceRange() : place, frame,
-         "Children index ({}) out of bounds ({} children)", n,
-         count_children(frame));
+    warn_at(is_2021 ? SourceRange() : place, frame,
+            "Children index ({}) out of bounds ({} children)", n,
+            count_children(frame));
   }
   return false;
 }
@@ -137,10 +137,10 @@ bool for_each_index(const Value& which, SourceRange place, Frame& frame,
         if (one.is_number()) {
           take(cut_to<int>(one.as_number()));
         } else {
-          warn({}, frame,
-               "Bad parameter type ({}) for children, only "
-               "accept: empty, number, vector, range.",
-               to_text(one));
+          warn_at({}, frame,
+                  "Bad parameter type ({}) for children, only "
+                  "accept: empty, number, vector, range.",
+                  to_text(one));
         }
       }
       return true;
@@ -148,8 +148,9 @@ bool for_each_index(const Value& which, SourceRange place, Frame& frame,
       const Range& range = which.as_range();
       const std::uint32_t count = range.count();
       if (count >= kMostStatementElements) {
-        warn(place, frame,
-             "Bad range parameter for children: too many elements ({})", count);
+        warn_at(place, frame,
+                "Bad range parameter for children: too many elements ({})",
+                count);
         return false;
       }
       for (std::uint32_t i = 0; range.step != 0 && i < count; ++i) {
@@ -158,10 +159,10 @@ bool for_each_index(const Value& which, SourceRange place, Frame& frame,
       return true;
     }
     default:
-      warn(place, frame,
-           "Bad parameter type ({}) for children, only "
-           "accept: empty, number, vector, range",
-           to_echo(which));
+      warn_at(place, frame,
+              "Bad parameter type ({}) for children, only "
+              "accept: empty, number, vector, range",
+              to_echo(which));
       return false;
   }
 }
@@ -230,14 +231,14 @@ void child(const BuiltinModuleCode& code, Frame& frame) {
     const Value which = run(code.arguments[0].value, frame);
     if (which.is_number()) n = cut_to<int>(which.as_number());
     if (n < 0) {
-      warn(code.range, frame, "Negative child index ({}) not allowed", n);
+      warn_at(code.range, frame, "Negative child index ({}) not allowed", n);
       return;
     }
   }
   if (frame.children == nullptr) return;
   if (static_cast<std::size_t>(n) >= count_children(frame)) {
-    warn(code.range, frame, "Child index ({}) out of bounds ({} children)", n,
-         count_children(frame));
+    warn_at(code.range, frame, "Child index ({}) out of bounds ({} children)",
+            n, count_children(frame));
     return;
   }
   const std::size_t mark = frame.in.node_mark();
@@ -247,7 +248,7 @@ void child(const BuiltinModuleCode& code, Frame& frame) {
 
 // --- The table --------------------------------------------------------------
 
-using Table = std::unordered_map<std::string_view, BuiltinModuleEntry>;
+using ModuleTable = std::unordered_map<std::string_view, BuiltinModuleEntry>;
 
 // In 2026 every parameter can be given by its place. What only the other
 // language has is understood, too, but calls that give it are warned.
@@ -278,14 +279,14 @@ BuiltinModuleEntry make_entry(const BuiltinModuleRow& row, Language language) {
 }
 
 void add_rows(const std::vector<BuiltinModuleRow>& rows, Language language,
-              Table& table) {
+              ModuleTable& table) {
   for (const BuiltinModuleRow& row : rows) {
     table[row.name] = make_entry(row, language);
   }
 }
 
-Table make_table(Language language) {
-  Table made;
+ModuleTable make_table(Language language) {
+  ModuleTable made;
   add_rows({{"echo", echo, {}},
             {"children", children, {}, {}, {}, {"index"}},
             {"child", child, {}}},
@@ -301,12 +302,12 @@ Table make_table(Language language) {
   return made;
 }
 
-const Table& builtin_table(Language language) {
+const ModuleTable& builtin_table(Language language) {
   if (language == Language::k2021) {
-    static const Table table = make_table(Language::k2021);
+    static const ModuleTable table = make_table(Language::k2021);
     return table;
   }
-  static const Table table = make_table(Language::k2026);
+  static const ModuleTable table = make_table(Language::k2026);
   return table;
 }
 
@@ -314,7 +315,7 @@ const Table& builtin_table(Language language) {
 
 const BuiltinModuleEntry* find_builtin_module(std::string_view name,
                                               Language language) {
-  const Table& table = builtin_table(language);
+  const ModuleTable& table = builtin_table(language);
   const auto entry = table.find(name);
   return entry == table.end() ? nullptr : &entry->second;
 }

@@ -30,6 +30,9 @@
 
 namespace lamina::text {
 
+// Characters of the first page of symbol fonts stand at U+F000.
+inline constexpr hb_codepoint_t kSymbolPage = 0xF000;
+
 // Frees what the C libraries made.
 struct Release {
   void operator()(FcFontSet* set) const { FcFontSetDestroy(set); }

@@ -10,7 +10,9 @@
 namespace lamina::ldni {
 namespace {
 
-[[noreturn]] void fail(const std::string& words) { throw InternalError(words); }
+[[noreturn]] void fail_internally(const std::string& words) {
+  throw InternalError(words);
+}
 
 // A shader that is attached lives as long as its program.
 void attach_shader(const GlFunctions& gl, GLuint program, GLenum kind,
@@ -82,14 +84,14 @@ GlObject make_program(const GlFunctions& gl, const std::string& vertex_shader,
   if (is_linked != 0) return program;
   std::array<char, 2000> log{};
   gl.GetProgramInfoLog(program.name(), log.size(), nullptr, log.data());
-  fail(fmt::format("a shader does not link: {}", log.data()));
+  fail_internally(fmt::format("a shader does not link: {}", log.data()));
 }
 
 void check_gl(const GlFunctions& gl) {
   const GLenum error = gl.GetError();
   if (error == GL_NO_ERROR) return;
   if (error == GL_OUT_OF_MEMORY) throw std::bad_alloc();
-  fail(fmt::format("OpenGL error 0x{:x}", error));
+  fail_internally(fmt::format("OpenGL error 0x{:x}", error));
 }
 
 }  // namespace lamina::ldni

@@ -6,7 +6,7 @@
 namespace lamina::slicer {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoBox = 0xffffffff;
 
 }  // namespace
 
@@ -27,8 +27,8 @@ const std::vector<std::uint32_t>& TouchingBoxes::find(
   }
   std::ranges::sort(levels_);
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
-  covers_.assign(4 * levels_.size(), kNone);
-  heads_.assign(4 * levels_.size(), kNone);
+  covers_.assign(4 * levels_.size(), kNoBox);
+  heads_.assign(4 * levels_.size(), kNoBox);
   entries_.clear();
   for (const std::uint32_t box : order_) add(box, 1, 0, levels_.size() - 1);
   for (std::uint32_t i = 0; i < boxes.size(); ++i) firsts_[i] = root_of(i);
@@ -43,7 +43,7 @@ void TouchingBoxes::add(std::uint32_t box, std::size_t node, std::size_t first,
     return boxes_[a].high.x > boxes_[b].high.x;
   };
   std::uint32_t& cover = covers_[node];
-  if (cover != kNone) meet(cover, box);
+  if (cover != kNoBox) meet(cover, box);
   std::uint32_t& head = heads_[node];
   if (levels_[first] < boxes_[box].low.y ||
       levels_[last] > boxes_[box].high.y) {
@@ -58,14 +58,14 @@ void TouchingBoxes::add(std::uint32_t box, std::size_t node, std::size_t first,
     }
     return;
   }
-  if (cover == kNone || ends_later(box, cover)) cover = box;
-  if (head == kNone) return;
+  if (cover == kNoBox || ends_later(box, cover)) cover = box;
+  if (head == kNoBox) return;
   Entry& kept = entries_[head];
-  for (std::uint32_t i = head; i != kNone; i = entries_[i].next) {
+  for (std::uint32_t i = head; i != kNoBox; i = entries_[i].next) {
     meet(entries_[i].box, box);
     if (ends_later(entries_[i].box, kept.box)) kept.box = entries_[i].box;
   }
-  kept.next = kNone;
+  kept.next = kNoBox;
 }
 
 // Joins two boxes that touch in y, of which b begins last.

@@ -23,7 +23,7 @@ namespace lamina::slicer {
 namespace {
 
 constexpr std::string_view kStart = "$$HEADERSTART";
-constexpr std::string_view kEnd = "$$HEADEREND";
+constexpr std::string_view kHeaderEnd = "$$HEADEREND";
 
 // Where the header's lower corner would make the first layer thicker than this
 // many others, it belongs to something else.
@@ -215,12 +215,12 @@ CliHeader read_header(const std::string& path, std::string_view bytes) {
     fail_to_read(path,
                  "not a CLI file: it does not begin with \"$$HEADERSTART\"");
   }
-  const std::size_t end = bytes.find(kEnd);
+  const std::size_t end = bytes.find(kHeaderEnd);
   if (end == std::string_view::npos) {
     fail_to_read(path, "the header has no end ($$HEADEREND)");
   }
   CliHeader header;
-  header.size = end + kEnd.size();
+  header.size = end + kHeaderEnd.size();
   bool has_encoding = false;
   Commands commands(path, bytes.substr(0, end), 0);
   std::string_view name;

@@ -22,18 +22,18 @@
 namespace lamina::slicer {
 namespace {
 
-using Record = RecordWriter<std::endian::little>;
+using CtbRecord = RecordWriter<std::endian::little>;
 
-constexpr std::size_t kHeaderSize = 112;
+constexpr std::size_t kCtbHeaderSize = 112;
 constexpr std::size_t kSlicerSize = 76;
 constexpr std::size_t kTableEntrySize = 36;
 constexpr std::size_t kLayerRecordSize = 84;  // of version 3 and above
 constexpr std::size_t kNoticeSize = 320;
-constexpr unsigned kFullPower = 255;
 // Any key but 0 is as good as another; one alone gives the same bytes always.
 constexpr std::uint32_t kKey = 0x6C616D69;
 
-void append_run(std::string& bytes, std::uint8_t grey, std::uint64_t count) {
+void append_ctb_run(std::string& bytes, std::uint8_t grey,
+                    std::uint64_t count) {
   bytes += static_cast<char>(count > 1 ? grey | 0x80 : grey);
   if (count == 1) return;
   if (count < 1U << 7) {
@@ -54,13 +54,13 @@ class CtbWriter : public ImageStackWriter {
       : ImageStackWriter(options, path),
         version_(options.printer.ctb_version),
         file_(OutputFile::open(path, files)) {
-    file_.write(std::string(kHeaderSize, '\0'));
+    file_.write(std::string(kCtbHeaderSize, '\0'));
   }
 
   std::string encode(const Layer& layer) const override {
     std::string bytes;
     RunJoiner joiner([&](std::uint8_t grey, std::uint64_t count) {
-      append_run(bytes, grey, count);
+      append_ctb_run(bytes, grey, count);
     });
     const Printer& printer = stack().printer;
     visit_runs(layer.contours, printer.width, printer.height, map(), 0,
@@ -95,7 +95,7 @@ class CtbWriter : public ImageStackWriter {
     mask_ctb_layer(kKey, static_cast<std::uint32_t>(index), masked);
     const bool has_record = version_ > 2;
     const std::size_t record_size = has_record ? kLayerRecordSize : 0;
-    Record entry;
+    CtbRecord entry;
     entry.f32(stack().layer_thickness * static_cast<double>(index + 1));
     entry.f32(stack().exposure.of(index));
     entry.f32(0);  // off time
@@ -109,10 +109,10 @@ class CtbWriter : public ImageStackWriter {
     file_.write(masked);
   }
 
-  std::string layer_record(std::size_t index, const Record& entry,
+  std::string layer_record(std::size_t index, const CtbRecord& entry,
                            std::size_t size) const {
     const PlatformMoves& moves = moves_of(stack().printer, index);
-    Record record;
+    CtbRecord record;
     record.raw(entry.bytes());
     record.u32(kLayerRecordSize + size);
     record.f32(moves.lift);
@@ -137,7 +137,7 @@ class CtbWriter : public ImageStackWriter {
                                         pixels[i + 1] >> 3U << 6U |
                                         pixels[i + 2] >> 3U);
     };
-    Record words;
+    CtbRecord words;
     for (std::size_t i = 0; i < pixels.size();) {
       const std::uint32_t color = color_at(i);
       std::uint64_t count = 1;
@@ -152,7 +152,7 @@ class CtbWriter : public ImageStackWriter {
       i += 3 * count;
     }
     const std::uint64_t place = file_.size();
-    Record record;
+    CtbRecord record;
     record.u32(width);
     record.u32(height);
     record.u32(place + 32);
@@ -170,7 +170,7 @@ class CtbWriter : public ImageStackWriter {
   void add_parameters() {
     const PlatformMoves& first = stack().printer.first_moves;
     const PlatformMoves& other = stack().printer.moves;
-    Record record;
+    CtbRecord record;
     for (const PlatformMoves& moves : {first, other}) {
       record.f32(moves.lift);
       record.f32(moves.lift_speed);
@@ -190,7 +190,7 @@ class CtbWriter : public ImageStackWriter {
     const std::string& name = stack().printer.title;
     const std::uint64_t name_place = file_.size() + kSlicerSize;
     const std::uint64_t notice_place = name_place + name.size();
-    Record record;
+    CtbRecord record;
     record.zeros(24);  // no second stage
     record.f32(0);
     record.u32(name_place);
@@ -211,7 +211,7 @@ class CtbWriter : public ImageStackWriter {
     file_.write(record.bytes());
   }
 
-  void add_version_4(Record& record, std::uint64_t notice_place) const {
+  void add_version_4(CtbRecord& record, std::uint64_t notice_place) const {
     const PlatformMoves& moves = stack().printer.moves;
     record.zeros(kNoticeSize);
     record.f32(stack().printer.first_moves.retract_speed);
@@ -239,7 +239,7 @@ class CtbWriter : public ImageStackWriter {
     const Exposure& exposure = stack().exposure;
     const std::size_t layers = stack().layers.size();
     const double height = stack().layer_thickness * static_cast<double>(layers);
-    Record record;
+    CtbRecord record;
     record.u32(version_ < 4 ? kCtbMagic : kCtbMagic4);
     record.u32(version_);
     record.f32(printer.width * printer.pixel.x);
@@ -274,7 +274,7 @@ class CtbWriter : public ImageStackWriter {
 
   unsigned version_;
   OutputFile file_;
-  Record table_;
+  CtbRecord table_;
 };
 
 }  // namespace

@@ -21,14 +21,14 @@
 namespace lamina::slicer {
 namespace {
 
-using Record = RecordWriter<std::endian::big>;
+using GooRecord = RecordWriter<std::endian::big>;
 
-constexpr std::size_t kHeaderSize = 195477;
+constexpr std::size_t kGooHeaderSize = 195477;
 constexpr std::string_view kMagic{"\x07\0\0\0DLP\0", 8};
 constexpr std::string_view kDelimiter = "\r\n";
-constexpr unsigned kFullPower = 255;
 
-void append_run(std::string& bytes, std::uint8_t grey, std::uint64_t count) {
+void append_goo_run(std::string& bytes, std::uint8_t grey,
+                    std::uint64_t count) {
   const unsigned kind = grey == 0 ? 0 : grey == 255 ? 3 : 1;
   unsigned more = 0;  // bytes of the length
   while (count >> (4 + 8 * more) != 0) ++more;
@@ -42,13 +42,13 @@ class GooWriter : public ImageStackWriter {
   GooWriter(const WriterOptions& options, const std::string& path,
             TemporaryFiles& files)
       : ImageStackWriter(options, path), file_(OutputFile::open(path, files)) {
-    file_.write(std::string(kHeaderSize, '\0'));
+    file_.write(std::string(kGooHeaderSize, '\0'));
   }
 
   std::string encode(const Layer& layer) const override {
     std::string bytes = "\x55";
     RunJoiner joiner([&](std::uint8_t grey, std::uint64_t count) {
-      append_run(bytes, grey, count);
+      append_goo_run(bytes, grey, count);
     });
     const Printer& printer = stack().printer;
     visit_runs(layer.contours, printer.width, printer.height, map(), 0,
@@ -71,7 +71,7 @@ class GooWriter : public ImageStackWriter {
   void add_image(std::string_view bytes) override {
     const std::size_t index = stack().layers.size();
     const PlatformMoves& moves = moves_of(stack().printer, index);
-    Record record;
+    GooRecord record;
     record.u16(0);  // no pause
     record.f32(0);
     record.f32(stack().layer_thickness * static_cast<double>(index + 1));
@@ -94,7 +94,7 @@ class GooWriter : public ImageStackWriter {
     file_.write(kDelimiter);
   }
 
-  void put_preview(Record& record, unsigned side) const {
+  void put_preview(GooRecord& record, unsigned side) const {
     const auto pixels = draw_preview(side, side);
     for (std::size_t i = 0; i < pixels.size(); i += 3) {
       record.u16(pixels[i] >> 3U << 11U | pixels[i + 1] >> 2U << 5U |
@@ -110,7 +110,7 @@ class GooWriter : public ImageStackWriter {
     const PlatformMoves& other = printer.moves;
     const std::size_t layers = stack().layers.size();
     const double height = stack().layer_thickness * static_cast<double>(layers);
-    Record record;
+    GooRecord record;
     record.raw("V3.0");
     record.raw(kMagic);
     record.text("lamina", 32);
@@ -158,7 +158,7 @@ class GooWriter : public ImageStackWriter {
     record.f32(stack().volume);
     record.zeros(8);  // weight and price are not known
     record.zeros(8);
-    record.u32(kHeaderSize);
+    record.u32(kGooHeaderSize);
     record.u8(1);  // grey is 0 to 255
     record.u16(kFadeLayers);
     return record.bytes();

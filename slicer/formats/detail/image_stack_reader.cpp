@@ -29,7 +29,7 @@
 namespace lamina::slicer {
 namespace {
 
-using Json = nlohmann::json;
+using ReadJson = nlohmann::json;
 
 constexpr std::string_view kImageEnding = ".png";
 constexpr std::string_view kDigits = "0123456789";
@@ -90,7 +90,7 @@ class ImageStackReader {
       if (has("config.ini")) return sl1_facts();
       if (has("slicer.json")) return nanodlp_facts();
       return folder_facts();
-    } catch (const Json::exception& error) {
+    } catch (const ReadJson::exception& error) {
       const std::string_view words = error.what();
       fail_to_read(path_, words.substr(words.find("] ") + 2));
     }
@@ -255,7 +255,7 @@ class ImageStackReader {
   }
 
   StackFacts nanodlp_facts() const {
-    const Json slicer = Json::parse(require_text("slicer.json"));
+    const ReadJson slicer = ReadJson::parse(require_text("slicer.json"));
     StackFacts stack;
     stack.format = "NanoDLP";
     stack.printer.width = to_pixels(slicer.at("PWidth").get<double>());
@@ -265,11 +265,11 @@ class ImageStackReader {
     if (slicer.value("ImageMirror", 0) != 0) stack.printer.right = {-1, 0};
     if (has("meta.json")) {
       stack.writer =
-          Json::parse(require_text("meta.json")).value("Program", "");
+          ReadJson::parse(require_text("meta.json")).value("Program", "");
     }
     std::optional<double> count;
     if (has("plate.json")) {
-      const Json plate = Json::parse(require_text("plate.json"));
+      const ReadJson plate = ReadJson::parse(require_text("plate.json"));
       if (plate.contains("LayersCount")) {
         count = plate.at("LayersCount").get<double>();
       }
@@ -282,7 +282,7 @@ class ImageStackReader {
   }
 
   StackFacts folder_facts() const {
-    const Json index = Json::parse(require_text(kFolderContents));
+    const ReadJson index = ReadJson::parse(require_text(kFolderContents));
     StackFacts stack;
     stack.format = "folder of images";
     stack.writer = index.value("software", "");
@@ -291,7 +291,7 @@ class ImageStackReader {
     stack.printer.pixel = {index.at("pixel_mm").at(0).get<double>(),
                            index.at("pixel_mm").at(1).get<double>()};
     require_pixel_size(stack.printer);
-    for (const Json& image : index.at("layers")) {
+    for (const ReadJson& image : index.at("layers")) {
       const double z = image.at("z").get<double>();
       const double half = image.at("thickness").get<double>() / 2;
       stack.images.push_back(

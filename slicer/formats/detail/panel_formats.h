@@ -9,6 +9,9 @@
 
 namespace lamina::slicer {
 
+// Of the light.
+inline constexpr unsigned kFullPower = 255;
+
 inline constexpr std::uint32_t kCtbMagic = 0x12FD0086;   // versions 2 and 3
 inline constexpr std::uint32_t kCtbMagic4 = 0x12FD0106;  // version 4
 inline constexpr std::uint32_t kCtbMagicEncrypted = 0x12FD0107;

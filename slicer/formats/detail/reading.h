@@ -11,6 +11,9 @@
 
 namespace lamina::slicer {
 
+// The file in a .3mf archive that holds the layers.
+inline constexpr const char* kThreemfModel = "3D/3dmodel.model";
+
 // Throws FileError, whose message begins with the file's name.
 [[noreturn]] void fail_to_read(const std::string& path,
                                std::string_view message);

@@ -17,12 +17,11 @@
 #include "base/version.h"
 #include "slicer/formats/detail/float_writer.h"
 #include "slicer/formats/detail/text_output.h"
+#include "slicer/formats/slc_reader.h"
 
 namespace lamina::slicer {
 namespace {
 
-constexpr std::size_t kReservedSize = 256;
-constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
 const std::size_t kMostRows =  // of the sampling table
     most_thickness_runs(OutputFormat::kSlc);
 
@@ -77,7 +76,7 @@ class SlcWriter : public FloatWriter {
  private:
   void begin_file(const Layer& first) {
     write_header();
-    output_.write(std::string(kReservedSize, '\0'));
+    output_.write(std::string(kSlcReservedSize, '\0'));
     table_offset_ = output_.size();
     append(output_, std::uint8_t{1});
     add_row(first);
@@ -123,7 +122,7 @@ class SlcWriter : public FloatWriter {
     // A file without layers is still a file: it has a table, and its top is 0.
     if (rows_.empty()) begin_file(Layer{});
     append(output_, top_z_);
-    append(output_, kEndOfLayers);
+    append(output_, kSlcEndOfLayers);
     write_header();
     finish_table();
   }

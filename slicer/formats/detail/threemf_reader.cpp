@@ -21,11 +21,9 @@
 namespace lamina::slicer {
 namespace {
 
-constexpr const char* kModel = "3D/3dmodel.model";
-
 // The model of an archive; nothing where it is not an archive with one.
 std::optional<std::string> read_model(std::string_view bytes) {
-  return ZipArchive::open(bytes).read(kModel);
+  return ZipArchive::open(bytes).read(kThreemfModel);
 }
 
 class ThreemfReader {
@@ -38,10 +36,11 @@ class ThreemfReader {
     } catch (const FormatError& error) {
       fail_to_read(path, error.what());
     }
-    if (!model) fail_to_read(path, fmt::format("it holds no {}", kModel));
+    if (!model)
+      fail_to_read(path, fmt::format("it holds no {}", kThreemfModel));
     if (const auto fault = load_xml(*model, document_)) {
-      fail_to_read(path, fmt::format("{} at byte {}: {}", kModel, fault->place,
-                                     fault->words));
+      fail_to_read(path, fmt::format("{} at byte {}: {}", kThreemfModel,
+                                     fault->place, fault->words));
     }
     unit_ = length_of_unit(root().attribute("unit").value());
     if (unit_ == 0) {

@@ -17,11 +17,10 @@
 #include "base/file/zip_output.h"
 #include "base/version.h"
 #include "slicer/formats/detail/float_writer.h"
+#include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {
 namespace {
-
-constexpr const char* kModel = "3D/3dmodel.model";
 
 constexpr std::string_view kContentTypes =
     R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -88,7 +87,7 @@ class ThreemfWriter : public FloatWriter {
   void begin_stack(const Layer& first) {
     has_layers_ = true;
     bottom_z_ = top_z_ = static_cast<float>(first.bottom);
-    archive_.begin_text(kModel);
+    archive_.begin_text(kThreemfModel);
     archive_.write(fmt::format(fmt::runtime(kModelHead), version()));
     archive_.write(fmt::format("  <s:slicestack id=\"1\" zbottom=\"{}\">\n",
                                printed(bottom_z_)));

@@ -22,6 +22,12 @@ void add_text(Coverage& coverage, std::string_view text, Vec2 at, double size);
 // Width of the line [pixels].
 double text_width(std::string_view text, double size);
 
+// Around tiles and the whole [pixels].
+inline constexpr unsigned kMargin = 18;
+// Heights of capitals [pixels].
+inline constexpr double kTitleSize = 17;
+inline constexpr double kTextSize = 12;
+
 inline constexpr Rgb kPaper = {0.97F, 0.965F, 0.95F};
 inline constexpr Rgb kTile = {1.0F, 1.0F, 0.995F};
 inline constexpr Rgb kFrame = {0.86F, 0.85F, 0.82F};

@@ -13,7 +13,7 @@ constexpr double kPlacesPerSide = 100;
 constexpr double kMostCovered = 0.9;
 
 // So many rounds in turn may fail to lower the overlap.
-constexpr std::size_t kPatience = 40;
+constexpr std::size_t kSaverPatience = 40;
 
 // A power of two, as the cells of bottom-left fill.
 double step_for(Vec2 area) {
@@ -56,7 +56,7 @@ bool PlateSaver::add_to(std::size_t plate, std::size_t piece,
   }
   if (share > kMostCovered) return false;
   search_.set_pieces(std::move(pieces));
-  if (!search_.separate(kPatience)) return false;
+  if (!search_.separate(kSaverPatience)) return false;
   std::erase_if(laid, [&](const LaidPiece& one) { return one.plate == plate; });
   for (const LatticePiece& one : search_.pieces()) {
     laid.push_back({one.turned, plate,

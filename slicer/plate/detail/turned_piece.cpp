@@ -35,7 +35,7 @@ plane::Region grow(const plane::Region& footprint, double gap) {
   return plane::to_region(contours);
 }
 
-Box2 box_of(const plane::Region& region) {
+Box2 box_or_origin(const plane::Region& region) {
   Box2 box;
   for (const plane::Contour& contour : region.contours) box.add(contour);
   return region.is_empty() ? Box2{Vec2(0), Vec2(0)} : box;
@@ -95,7 +95,8 @@ std::vector<TurnedPiece> turn_pieces(std::span<const Piece> pieces, double gap,
       TurnedPiece& piece = turned[i * turns + turn];
       piece.piece = i;
       piece.turn_deg = 360.0 * turn / turns;
-      piece.box = box_of(place(pieces[i].footprint, piece.turn_deg, Vec2(0)));
+      piece.box =
+          box_or_origin(place(pieces[i].footprint, piece.turn_deg, Vec2(0)));
       piece.grown = place(grown, piece.turn_deg, -piece.box.low);
     }
   });

@@ -14,7 +14,7 @@ namespace {
 
 // A pillar that leans does so by 45°, and no farther than this [mm], in such
 // steps.
-constexpr double kFarthest = 12;
+constexpr double kFarthestLean = 12;
 constexpr double kSidestep = 0.5;
 
 // Shorter heads are blunt [mm].
@@ -177,7 +177,7 @@ bool SupportRouter::add_way_to_bed(Support& support,
     support.path.emplace_back(Vec2(from), lowest);
     return true;
   }
-  for (double distance = kSidestep; distance <= kFarthest;
+  for (double distance = kSidestep; distance <= kFarthestLean;
        distance += kSidestep) {
     if (from.z - distance <= lowest) return false;
     for (const Vec2 side : sides) {

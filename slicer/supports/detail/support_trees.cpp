@@ -14,7 +14,7 @@ namespace lamina::slicer::detail {
 namespace {
 
 // Pillars lean no farther than this [mm], and no more of them to one.
-constexpr double kFarthest = 10;
+constexpr double kFarthestBranch = 10;
 constexpr std::size_t kMostBranches = 3;
 
 // What saves less than this is not worth a joint [mm³].
@@ -82,7 +82,7 @@ class TreeMaker {
     const Vec3 top = top_of(branch);
     const double distance = glm::distance(Vec2(top), Vec2(top_of(trunk)));
     const double joint = top.z - distance;
-    if (distance > kFarthest || joint > top_of(trunk).z ||
+    if (distance > kFarthestBranch || joint > top_of(trunk).z ||
         joint < bed_ + sizes_.foot_height + sizes_.pillar) {
       return 0;
     }
