@@ -32,9 +32,9 @@ using testing::Swept;
 using testing::operator*;
 
 // The layer of a scene at height 0.5, and what is made of it.
-class Layer {
+class ClippedLayer {
  public:
-  explicit Layer(csg::Scene scene) : scene_(std::move(scene)) {
+  explicit ClippedLayer(csg::Scene scene) : scene_(std::move(scene)) {
     const ldni::LayerGrid grid = ldni::LayerGrid::at_heights({0.5});
     ldni::LeafSectioner(scene_, grid).cut(0, 1, block_);
     clipper_.begin(block_.chains_of(0));
@@ -99,7 +99,7 @@ void expect_same_points(const Contours& a, const Contours& b) {
   }
 }
 
-void expect_same_region(const Layer& layer) {
+void expect_same_region(const ClippedLayer& layer) {
   expect_closed(layer.clipped());
   const Swept whole = layer.sweep(layer.whole());
   const Swept clipped = layer.sweep(layer.clipped());
@@ -160,10 +160,10 @@ csg::Scene gear_in_box(const Vec2& size) {
 }
 
 TEST(ChainClipper, ChangesNoRegion) {
-  expect_same_region(Layer(drilled_plates(12)));
+  expect_same_region(ClippedLayer(drilled_plates(12)));
   for (const Vec2& size :
        {Vec2(3, 3), Vec2(30, 3), Vec2(3, 30), Vec2(30, 30), Vec2(7.5, 6.5)}) {
-    expect_same_region(Layer(gear_in_box(size)));
+    expect_same_region(ClippedLayer(gear_in_box(size)));
   }
 }
 
@@ -178,13 +178,13 @@ TEST(ChainClipper, ClipsShiftedAndTurnedScenesAlike) {
         instance.box = {{-1e5, -1e5, 0}, {1e5, 1e5, 1}};
       }
       scene.box = {{-1e5, -1e5, 0}, {1e5, 1e5, 1}};
-      expect_same_region(Layer(scene));
+      expect_same_region(ClippedLayer(scene));
     }
   }
 }
 
 TEST(ChainClipper, LeavesOutWhatIsBesideTheZone) {
-  const Layer layer(drilled_plates(16));
+  const ClippedLayer layer(drilled_plates(16));
   EXPECT_LT(layer.share_within(), 0.5);
   const auto events = [&](const LayerChains& chains, double patience) {
     return layer.sweep(chains, patience).counts.event_points;
@@ -196,7 +196,7 @@ TEST(ChainClipper, LeavesOutWhatIsBesideTheZone) {
 
 TEST(ChainClipper, SumsUpWhatLiesAlongASide) {
   // Of 200 flanks of the gear 100 lie above or below the box.
-  const Layer layer(gear_in_box({30, 1}));
+  const ClippedLayer layer(gear_in_box({30, 1}));
   EXPECT_GT(layer.whole().chains.size(), 100U);
   EXPECT_LT(layer.clipped().chains.size(), 20U);
 }
@@ -208,7 +208,7 @@ TEST(ChainClipper, KeepsWhatLiesInTheZonePointForPoint) {
     builder.add(testing::cylinder_leaf(0.5, 0.5, 1, 12),
                 testing::translated({i - 2.0, 0.3, 0}));
   }
-  const Layer layer(builder.finish());
+  const ClippedLayer layer(builder.finish());
   EXPECT_EQ(layer.share_within(), 1);
   const LayerChains whole = layer.whole();
   const LayerChains& clipped = layer.clipped();
@@ -227,7 +227,7 @@ TEST(ChainClipper, LeavesOutLeavesOfAnIntersectionThatIsEmpty) {
   csg::Scene scene = builder.finish();
   scene.box = {{-50, -50, 0}, {50, 50, 1}};
   for (csg::Instance& instance : scene.instances) instance.box = scene.box;
-  EXPECT_TRUE(Layer(scene).clipped().chains.empty());
+  EXPECT_TRUE(ClippedLayer(scene).clipped().chains.empty());
 }
 
 }  // namespace

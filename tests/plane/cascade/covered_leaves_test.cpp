@@ -24,9 +24,9 @@ using testing::Swept;
 using testing::operator*;
 
 // The layer of a scene at height 0.5, and what is left of it.
-class Layer {
+class UncoveredLayer {
  public:
-  explicit Layer(csg::Scene scene) : scene_(std::move(scene)) {
+  explicit UncoveredLayer(csg::Scene scene) : scene_(std::move(scene)) {
     const ldni::LayerGrid grid = ldni::LayerGrid::at_heights({0.5});
     ldni::LeafSectioner(scene_, grid).cut(0, 1, block_);
     left_ = covered_.leave_out(block_.chains_of(0));
@@ -55,7 +55,7 @@ class Layer {
   LayerChains left_;
 };
 
-void expect_same_region(const Layer& layer) {
+void expect_same_region(const UncoveredLayer& layer) {
   const Contours whole = layer.sweep(layer.whole());
   const Contours left = layer.sweep(layer.left());
   EXPECT_EQ(support::count_loops(left), support::count_loops(whole));
@@ -77,7 +77,7 @@ TEST(CoveredLeaves, ALeafWithinAnotherGoes) {
   add_square(builder, {0, 0}, 50);
   add_square(builder, {10, 10}, 20);
   add_others(builder);
-  const Layer layer(builder.finish());
+  const UncoveredLayer layer(builder.finish());
   EXPECT_TRUE(layer.has_left(0));
   EXPECT_FALSE(layer.has_left(1));
   EXPECT_EQ(layer.leaves_left().size(), 21U);
@@ -89,7 +89,7 @@ TEST(CoveredLeaves, ALeafWithinSeveralGoes) {
   for (int i = 0; i < 4; ++i) add_square(builder, {20.0 * i, 0}, 30);
   add_square(builder, {25, 2}, 25);
   add_others(builder);
-  const Layer layer(builder.finish());
+  const UncoveredLayer layer(builder.finish());
   EXPECT_EQ(layer.leaves_left().size(), 24U);
   EXPECT_FALSE(layer.has_left(4));
 }
@@ -100,14 +100,14 @@ TEST(CoveredLeaves, WhatReachesTheBorderStays) {
     add_square(builder, {0, 0}, 50);
     add_square(builder, {gap, 10}, 20);
     add_others(builder);
-    EXPECT_TRUE(Layer(builder.finish()).has_left(1)) << gap;
+    EXPECT_TRUE(UncoveredLayer(builder.finish()).has_left(1)) << gap;
   }
 }
 
 TEST(CoveredLeaves, OfEqualLeavesNoneCoversAnother) {
   SceneBuilder builder;
   for (int i = 0; i < 40; ++i) add_square(builder, {0, 0}, 10);
-  EXPECT_EQ(Layer(builder.finish()).leaves_left().size(), 40U);
+  EXPECT_EQ(UncoveredLayer(builder.finish()).leaves_left().size(), 40U);
 }
 
 TEST(CoveredLeaves, AHoleCoversNothing) {
@@ -116,7 +116,7 @@ TEST(CoveredLeaves, AHoleCoversNothing) {
               testing::translated({40, 40, 0.5}));
   add_square(builder, {35, 35}, 10);
   add_others(builder);
-  EXPECT_TRUE(Layer(builder.finish()).has_left(1));
+  EXPECT_TRUE(UncoveredLayer(builder.finish()).has_left(1));
 }
 
 TEST(CoveredLeaves, WhatAUnionHoldsBelowAnotherOperatorGoes) {
@@ -127,7 +127,7 @@ TEST(CoveredLeaves, WhatAUnionHoldsBelowAnotherOperatorGoes) {
   add_square(builder, {12, 12}, 60);  // sticks out, but only the minuend counts
   builder.end();
   add_others(builder);
-  const Layer layer(builder.finish());
+  const UncoveredLayer layer(builder.finish());
   EXPECT_FALSE(layer.has_left(1));
   EXPECT_TRUE(layer.has_left(2));
   expect_same_region(layer);
@@ -141,7 +141,7 @@ TEST(CoveredLeaves, WhatIsSubtractedCoversAllOfTheDifference) {
   add_square(builder, {0, 20}, 25);
   add_square(builder, {20, 20}, 25);
   for (int i = 0; i < 20; ++i) add_square(builder, {12.0 + 0.7 * i, 15}, 0.5);
-  EXPECT_EQ(Layer(builder.finish()).leaves_left(),
+  EXPECT_EQ(UncoveredLayer(builder.finish()).leaves_left(),
             (std::set<std::uint32_t>{1, 2, 3, 4}));
 }
 
@@ -150,13 +150,13 @@ TEST(CoveredLeaves, AMinuendAndAnIntersectionCoverNothing) {
   add_square(difference, {0, 0}, 50);
   add_square(difference, {10, 10}, 20);
   add_others(difference);
-  EXPECT_TRUE(Layer(difference.finish()).has_left(1));
+  EXPECT_TRUE(UncoveredLayer(difference.finish()).has_left(1));
 
   SceneBuilder intersection(BooleanOp::kIntersection);
   for (int i = 0; i < 30; ++i) {
     add_square(intersection, {0.5 * i, 0.5 * i}, 50.0 - i);
   }
-  EXPECT_EQ(Layer(intersection.finish()).leaves_left().size(), 30U);
+  EXPECT_EQ(UncoveredLayer(intersection.finish()).leaves_left().size(), 30U);
 }
 
 // Balls and turned bricks of all sizes in each other, some of them pierced.
@@ -200,7 +200,7 @@ TEST(CoveredLeaves, LeavingThemOutChangesNoRegion) {
   std::size_t all = 0;
   std::size_t left = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Layer layer(
+    const UncoveredLayer layer(
         heap(seed, seed % 2 == 0 ? BooleanOp::kUnion : BooleanOp::kDifference));
     expect_same_region(layer);
     all += layer.whole().chains.size();

@@ -12,7 +12,7 @@ namespace lamina::plane {
 namespace {
 
 // No multiple of what the distances below are multiples of.
-constexpr double kTie = 0.0987;
+constexpr double kCoarseTie = 0.0987;
 
 using Polyline = std::vector<Vec2>;
 
@@ -23,7 +23,7 @@ Certificate certify_chains(const Polyline& lower, const Polyline& upper,
   ChainCursor b(&upper.front(), &upper.back());
   a.advance(x);
   b.advance(x);
-  return certify(a, b, x, limit, kTie);
+  return certify(a, b, x, limit, kCoarseTie);
 }
 
 TEST(Certificate, OfChainsThatStayApartHoldsToTheirEnd) {
@@ -104,9 +104,9 @@ std::vector<Part> parts_of(const Polyline& lower, const Polyline& upper) {
     const double right = places[i];
     const double a = distance(left);
     const double b = distance(right);
-    if (std::abs(a) <= kTie && std::abs(b) <= kTie) {
+    if (std::abs(a) <= kCoarseTie && std::abs(b) <= kCoarseTie) {
       parts.push_back({left, right, 0, false});
-    } else if (a * b < 0 && std::min(std::abs(a), std::abs(b)) > kTie) {
+    } else if (a * b < 0 && std::min(std::abs(a), std::abs(b)) > kCoarseTie) {
       const double crossing = left + (right - left) * a / (a - b);
       parts.push_back({left, crossing, a > 0 ? 1 : -1, false});
       parts.push_back({crossing, right, a > 0 ? -1 : 1, false});

@@ -69,7 +69,7 @@ std::vector<int> cover(const Region& region, double angle = 0) {
   return windings;
 }
 
-bool cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+bool edges_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return orientation(a, b, c) * orientation(a, b, d) < 0 &&
          orientation(c, d, a) * orientation(c, d, b) < 0;
 }
@@ -98,7 +98,7 @@ void expect_valid(const Region& region) {
   }
   const auto edges = edges_of(region);
   for (const auto& [a, b] : edges) {
-    for (const auto& [c, d] : edges) EXPECT_FALSE(cross(a, b, c, d));
+    for (const auto& [c, d] : edges) EXPECT_FALSE(edges_cross(a, b, c, d));
   }
   for (const int winding : cover(region)) {
     EXPECT_TRUE(winding == 0 || winding == 1) << winding;

@@ -14,16 +14,10 @@
 #include "plane/program/program_states.h"
 #include "plane/sweep/chain_endpoints.h"
 #include "tests/ldni/support/scene_builder.h"
+#include "tests/plane/sweep/loops.h"
 
 namespace lamina::plane {
 namespace {
-
-using Loop = std::vector<Vec2>;
-
-Loop diamond(const Vec2& centre, double radius) {
-  return {centre + Vec2(-radius, 0), centre + Vec2(0, -radius),
-          centre + Vec2(radius, 0), centre + Vec2(0, radius)};
-}
 
 Loop square(const Vec2& low, double size) {
   return {low, low + Vec2(size, 0), low + Vec2(size), low + Vec2(0, size)};

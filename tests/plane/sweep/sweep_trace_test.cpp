@@ -6,17 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "plane/chain_builder.h"
+#include "tests/plane/sweep/loops.h"
 
 namespace lamina::plane {
 namespace {
 
 using Chains = std::vector<std::uint32_t>;
-using Loop = std::vector<Vec2>;
-
-Loop diamond(const Vec2& centre, double radius) {
-  return {centre + Vec2(-radius, 0), centre + Vec2(0, -radius),
-          centre + Vec2(radius, 0), centre + Vec2(0, radius)};
-}
 
 // The union of loops, each an operand of its own. Chain 2i is the upper one of
 // loop i, chain 2i + 1 the lower one.
