@@ -16,9 +16,6 @@
 namespace lamina::csg {
 namespace {
 
-// Of a few coordinates; Booleans of regions take edges within 3e-8 mm for one.
-constexpr double kRounding = 1e-5;
-
 Vec3 area_vector(const BoundaryFace& face) {
   Vec3 sum(0);
   for (const auto& contour : face.contours) {
@@ -58,7 +55,7 @@ class BoundaryFaces : public LowerFixture {
     const Lowered lowered = run(children);
     if (!lowered.scene()) return {};
     const auto result = boundary_faces(*lowered.scene());
-    EXPECT_NEAR(gap(result), 0, kRounding);
+    EXPECT_NEAR(gap(result), 0, kBooleanRounding);
     for (const BoundaryFace& face : result) {
       EXPECT_NEAR(glm::length(face.normal), 1, 1e-12);
       EXPECT_GT(glm::dot(face.normal, area_vector(face)), 0);
@@ -104,14 +101,14 @@ TEST_F(BoundaryFaces, OfTwoCubesThatOverlap) {
   const TreeBuilder::Children both{b.cube({2, 2, 2}),
                                    b.translate({1, 1, 1}, {b.cube({2, 2, 2})})};
   const auto united = faces({unite(both)});
-  EXPECT_NEAR(volume(united), 15, kRounding);
-  EXPECT_NEAR(area(united), 42, kRounding);
+  EXPECT_NEAR(volume(united), 15, kBooleanRounding);
+  EXPECT_NEAR(area(united), 42, kBooleanRounding);
   const auto common = faces({intersect(both)});
-  EXPECT_NEAR(volume(common), 1, kRounding);
-  EXPECT_NEAR(area(common), 6, kRounding);
+  EXPECT_NEAR(volume(common), 1, kBooleanRounding);
+  EXPECT_NEAR(area(common), 6, kBooleanRounding);
   const auto rest = faces({subtract(both)});
-  EXPECT_NEAR(volume(rest), 7, kRounding);
-  EXPECT_NEAR(area(rest), 24, kRounding);
+  EXPECT_NEAR(volume(rest), 7, kBooleanRounding);
+  EXPECT_NEAR(area(rest), 24, kBooleanRounding);
 }
 
 TEST_F(BoundaryFaces, OfACubeInsideAnother) {
@@ -128,22 +125,22 @@ TEST_F(BoundaryFaces, ThatCoincideAreThereOnceOrNotAtAll) {
   // A wall that two cubes share is none; faces in one plane come once.
   const auto beside =
       faces({b.cube({1, 1, 1}), b.translate({1, 0, 0}, {b.cube({1, 1, 1})})});
-  EXPECT_NEAR(volume(beside), 2, kRounding);
-  EXPECT_NEAR(area(beside), 10, kRounding);
+  EXPECT_NEAR(volume(beside), 2, kBooleanRounding);
+  EXPECT_NEAR(area(beside), 10, kBooleanRounding);
   const auto overlapping =
       faces({b.cube({2, 1, 1}), b.translate({1, 0, 0}, {b.cube({2, 1, 1})})});
-  EXPECT_NEAR(volume(overlapping), 3, kRounding);
-  EXPECT_NEAR(area(overlapping), 14, kRounding);
+  EXPECT_NEAR(volume(overlapping), 3, kBooleanRounding);
+  EXPECT_NEAR(area(overlapping), 14, kBooleanRounding);
   const auto twice = faces({b.cube({2, 1, 1}), b.cube({2, 1, 1})});
-  EXPECT_NEAR(volume(twice), 2, kRounding);
-  EXPECT_NEAR(area(twice), 10, kRounding);
+  EXPECT_NEAR(volume(twice), 2, kBooleanRounding);
+  EXPECT_NEAR(area(twice), 10, kBooleanRounding);
   // Nothing is left of a cube minus itself, and no skin of a flush cut.
   EXPECT_TRUE(
       faces({subtract({b.cube({1, 1, 1}), b.cube({1, 1, 1})})}).empty());
   const auto cut = faces({subtract(
       {b.cube({3, 1, 1}), b.translate({1, 0, 0}, {b.cube({1, 1, 1})})})});
-  EXPECT_NEAR(volume(cut), 2, kRounding);
-  EXPECT_NEAR(area(cut), 12, kRounding);
+  EXPECT_NEAR(volume(cut), 2, kBooleanRounding);
+  EXPECT_NEAR(area(cut), 12, kBooleanRounding);
 }
 
 TEST_F(BoundaryFaces, OfAPolyhedronThatOverlapsItselfHideItsInside) {
@@ -165,8 +162,8 @@ TEST_F(BoundaryFaces, OfAPolyhedronThatOverlapsItselfHideItsInside) {
     }
   }
   const auto result = faces({b.polyhedron(points, sides)});
-  EXPECT_NEAR(volume(result), 15, kRounding);
-  EXPECT_NEAR(area(result), 42, kRounding);
+  EXPECT_NEAR(volume(result), 15, kBooleanRounding);
+  EXPECT_NEAR(area(result), 42, kBooleanRounding);
 }
 
 // vol(A ∪ B) + vol(A ∩ B) = vol A + vol B, vol(A - B) = vol A - vol(A ∩ B), and
@@ -199,9 +196,10 @@ TEST_F(BoundaryFaces, ObeyTheLawsOfVolume) {
     const auto c = faces({two});
     const auto common = faces({intersect({one, two})});
     const auto all = faces({unite({one, two})});
-    EXPECT_NEAR(volume(all) + volume(common), volume(a) + volume(c), kRounding);
+    EXPECT_NEAR(volume(all) + volume(common), volume(a) + volume(c),
+                kBooleanRounding);
     const auto rest = faces({subtract({one, two})});
-    EXPECT_NEAR(volume(rest), volume(a) - volume(common), kRounding);
+    EXPECT_NEAR(volume(rest), volume(a) - volume(common), kBooleanRounding);
   }
 }
 
@@ -253,9 +251,10 @@ TEST_F(BoundaryFaces, AreMeasuredAsTheyAreSolved) {
         measured.add(part.normal, part.area, part.box);
       }
       ++faces;
-      ASSERT_NEAR(measured.area, solved.area, kRounding);
-      ASSERT_NEAR(glm::distance(measured.vector, solved.vector), 0, kRounding);
-      if (solved.area < kRounding) continue;
+      ASSERT_NEAR(measured.area, solved.area, kBooleanRounding);
+      ASSERT_NEAR(glm::distance(measured.vector, solved.vector), 0,
+                  kBooleanRounding);
+      if (solved.area < kBooleanRounding) continue;
       EXPECT_NEAR(glm::distance(measured.box.low, solved.box.low), 0, 1e-5);
       EXPECT_NEAR(glm::distance(measured.box.high, solved.box.high), 0, 1e-5);
     }

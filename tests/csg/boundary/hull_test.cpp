@@ -20,7 +20,7 @@ namespace {
 
 using Hulls = LowerFixture;
 
-constexpr double kRounding = 1e-9;
+constexpr double kHullRounding = 1e-9;
 
 TEST(ConvexHull, OfPointsThatSpanNoVolumeIsNothing) {
   EXPECT_TRUE(convex_hull(std::vector<Vec3>()).triangles.empty());
@@ -96,10 +96,11 @@ TEST(FlatHull, OfARowIsItsEndsWhateverRoundingDoes) {
 }
 
 TEST_F(Hulls, OfOneConvexLeafIsThatLeaf) {
-  EXPECT_NEAR(run_volume({b.node(Hull{}, {b.cube({2, 3, 4})})}), 24, kRounding);
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {b.cube({2, 3, 4})})}), 24,
+              kHullRounding);
   const double sphere = run_volume({b.sphere(5, 40)});
   EXPECT_NEAR(run_volume({b.node(Hull{}, {b.sphere(5, 40)})}), sphere,
-              kRounding);
+              kHullRounding);
 }
 
 // A prism over the hull of two squares: 1 + 1 + the band between them.
@@ -107,7 +108,7 @@ TEST_F(Hulls, OfTwoCubesIsThePrismBetweenThem) {
   const double volume = run_volume(
       {b.node(Hull{}, {b.cube({1, 1, 1}),
                        b.translate({3, 3, 0}, {b.cube({1, 1, 1})})})});
-  EXPECT_NEAR(volume, 1 + 6, kRounding);
+  EXPECT_NEAR(volume, 1 + 6, kHullRounding);
 }
 
 // V(A ⊕ segment) = V(A) + length · shadow of A.
@@ -119,7 +120,7 @@ TEST_F(Hulls, OfASphereAndItsTranslateIsTheSweptSphere) {
   const double sphere = run_volume({b.sphere(1, n)});
   const double volume = run_volume({b.node(
       Hull{}, {b.sphere(1, n), b.translate({0, 0, 7}, {b.sphere(1, n)})})});
-  EXPECT_NEAR(volume, sphere + 7 * shadow * widest * widest, kRounding);
+  EXPECT_NEAR(volume, sphere + 7 * shadow * widest * widest, kHullRounding);
 }
 
 // However rounding orders the leaves, as along a Bézier curve whose control
@@ -144,7 +145,7 @@ TEST_F(Hulls, OfARowOfEqualLeavesIsThatOfItsEnds) {
     }
     const std::vector<const Node*> ends = {row.front(), row.back()};
     EXPECT_NEAR(run_volume({b.node(Hull{}, row)}),
-                run_volume({b.node(Hull{}, ends)}), kRounding);
+                run_volume({b.node(Hull{}, ends)}), kHullRounding);
   }
 }
 
@@ -156,10 +157,10 @@ TEST_F(Hulls, NestGroupAndMoveAsOne) {
   const double plain = run_volume({b.node(Hull{}, pair())});
   const double nested = run_volume(
       {b.node(Hull{}, {b.node(Hull{}, pair()), b.node(Union{}, pair())})});
-  EXPECT_NEAR(nested, plain, kRounding);
+  EXPECT_NEAR(nested, plain, kHullRounding);
   const double scaled =
       run_volume({b.scale({2, -3, 0.5}, {b.node(Hull{}, pair())})});
-  EXPECT_NEAR(scaled, -3 * plain, kRounding);  // mirrored
+  EXPECT_NEAR(scaled, -3 * plain, kHullRounding);  // mirrored
 }
 
 TEST_F(Hulls, OfThousandsOfEqualLeavesIsThatOfTheOutermost) {
@@ -171,7 +172,7 @@ TEST_F(Hulls, OfThousandsOfEqualLeavesIsThatOfTheOutermost) {
       }
     }
   }
-  EXPECT_NEAR(run_volume({b.node(Hull{}, leaves)}), 8000, kRounding);
+  EXPECT_NEAR(run_volume({b.node(Hull{}, leaves)}), 8000, kHullRounding);
 }
 
 // Points are given as faces of a polyhedron, whatever faces: BOSL2 does so.
@@ -184,11 +185,11 @@ TEST_F(Hulls, TakeTheCornersOfAnyHeapOfFaces) {
   const Node* heap =
       b.polyhedron(corners, {{0, 1, 2, 3, 4}, {5, 6}, {7}, {7, 7, 0}});
   const Node* moved = b.translate({1, 2, 3}, {b.node(Group{}, {heap})});
-  EXPECT_NEAR(run_volume({b.node(Hull{}, {moved})}), 6, kRounding);
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {moved})}), 6, kHullRounding);
   EXPECT_TRUE(messages().empty());
   // In a union it is a solid, and there the faces matter.
   const Node* united = b.node(Union{}, {heap, b.cube({1, 2, 3})});
-  EXPECT_NEAR(run_volume({b.node(Hull{}, {united})}), 6, kRounding);
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {united})}), 6, kHullRounding);
   EXPECT_FALSE(messages().empty());
 }
 
@@ -209,14 +210,14 @@ TEST_F(Hulls, OfADifferenceTakeTheCornersOfTheResult) {
   // A notch does not show.
   const Node* notch = b.translate({0.5, 0.5, 0.5}, {b.cube({1, 1, 5})});
   const Node* notched = b.node(Difference{}, {b.cube({2, 2, 2}), notch});
-  EXPECT_NEAR(run_volume({b.node(Hull{}, {notched})}), 8, kRounding);
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {notched})}), 8, kHullRounding);
   // Half of a cube, and a leaf beside it.
   const Node* half =
       b.node(Intersection{},
              {b.cube({2, 2, 2}), b.translate({0, 0, 1}, {b.cube({3, 3, 3})})});
-  EXPECT_NEAR(run_volume({b.node(Hull{}, {half})}), 4, kRounding);
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {half})}), 4, kHullRounding);
   const Node* beside = b.translate({4, 0, 1}, {b.cube({1, 2, 1})});
-  EXPECT_NEAR(run_volume({b.node(Hull{}, {half, beside})}), 10, kRounding);
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {half, beside})}), 10, kHullRounding);
 }
 
 // Faces inside of what is known of the hull are passed over.
@@ -259,11 +260,11 @@ TEST_F(Hulls, TakeTheCornersOfFlattenedSolids) {
   const Node* top =
       b.translate({1, 1, 6}, {b.scale({1, 1, 0}, {b.cube({1, 1, 1})})});
   EXPECT_NEAR(run_volume({b.node(Hull{}, {base, b.node(Group{}, {top})})}),
-              6.0 / 3 * (9 + 3 + 1), kRounding);
+              6.0 / 3 * (9 + 3 + 1), kHullRounding);
   const Node* tip =
       b.translate({1, 1, 6}, {b.scale(Vec3(0), {b.sphere(1, 8)})});
   EXPECT_NEAR(run_volume({b.node(Hull{}, {base, tip})}), 6.0 / 3 * 9,
-              kRounding);
+              kHullRounding);
 }
 
 // Points come as faces of less than three corners.
@@ -272,11 +273,11 @@ TEST_F(Hulls, TakeThePointsOfAPolyhedron) {
       run_volume({b.node(
           Hull{}, {b.polyhedron({{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {0, 0, 6}},
                                 {{0}, {1, 2}, {3}})})}),
-      36, kRounding);
+      36, kHullRounding);
   const Node* tip = b.polyhedron({{1, 1, 7}}, {{0}});
   EXPECT_NEAR(run_volume({b.node(Hull{}, {b.cube({3, 3, 1}), tip})}),
-              9 + 6.0 / 3 * 9, kRounding);
-  EXPECT_NEAR(run_volume({b.cube({3, 3, 1}), tip}), 9, kRounding);
+              9 + 6.0 / 3 * 9, kHullRounding);
+  EXPECT_NEAR(run_volume({b.cube({3, 3, 1}), tip}), 9, kHullRounding);
 }
 
 TEST_F(Hulls, InThePlaneTakeAllOutlines) {
@@ -291,7 +292,7 @@ TEST_F(Hulls, InThePlaneTakeAllOutlines) {
 TEST_F(Hulls, LeaveOutChildrenOfTheOtherDimension) {
   EXPECT_NEAR(
       run_volume({b.node(Hull{}, {b.cube({1, 1, 1}), b.node(Square{{5, 5}})})}),
-      1, kRounding);
+      1, kHullRounding);
   EXPECT_EQ(messages(), (std::vector<std::string>{
                             "Mixing 2D and 3D objects is not supported",
                             "Ignoring 2D child object for 3D operation"}));

@@ -19,9 +19,6 @@
 namespace lamina::csg {
 namespace {
 
-// Of a few coordinates; Booleans of regions take edges within 3e-8 mm for one.
-constexpr double kRounding = 1e-5;
-
 class Projections : public LowerFixture {
  protected:
   plane::Region project(const TreeBuilder::Children& children, bool cut) {
@@ -50,7 +47,7 @@ TEST_F(Projections, CutALeafWhereItCrossesThePlane) {
   const plane::Region region =
       cut({b.translate({0, 0, -1}, {b.cylinder(2, 3, 1, 40)})});
   EXPECT_EQ(region.contours.size(), 1u);
-  EXPECT_NEAR(plane::area(region), 4 * polygon_area(40), kRounding);
+  EXPECT_NEAR(plane::area(region), 4 * polygon_area(40), kBooleanRounding);
 }
 
 TEST_F(Projections, CutABoolean) {
@@ -59,24 +56,24 @@ TEST_F(Projections, CutABoolean) {
                      b.translate({0, 0, -1}, {b.cylinder(11, 2, 2, 40)})});
   const plane::Region region = cut({b.translate({0, 0, -4}, {pipe})});
   EXPECT_EQ(region.contours.size(), 2u);
-  EXPECT_NEAR(plane::area(region), 5 * polygon_area(40), kRounding);
+  EXPECT_NEAR(plane::area(region), 5 * polygon_area(40), kBooleanRounding);
 }
 
 // As in OpenSCAD, which cuts the solid with its surface.
 TEST_F(Projections, CutWhatOnlyTouchesThePlane) {
-  EXPECT_NEAR(plane::area(cut({b.cube({2, 3, 4})})), 6, kRounding);
+  EXPECT_NEAR(plane::area(cut({b.cube({2, 3, 4})})), 6, kBooleanRounding);
   EXPECT_NEAR(plane::area(cut({b.translate({0, 0, -4}, {b.cube({2, 3, 4})})})),
-              6, kRounding);
+              6, kBooleanRounding);
   // One stands on the plane, one hangs below it.
   EXPECT_NEAR(plane::area(cut({b.cube({1, 1, 1}),
                                b.translate({1, 0, -2}, {b.cube({3, 1, 2})})})),
-              4, kRounding);
+              4, kBooleanRounding);
   // A cavity that ends in the plane shows: what is taken away takes its surface
   // along.
   const Node* dented = b.node(
       Difference{},
       {b.cube({4, 4, 4}, true), b.translate({-1, -1, 0}, {b.cube({2, 2, 5})})});
-  EXPECT_NEAR(plane::area(cut({dented})), 12, kRounding);
+  EXPECT_NEAR(plane::area(cut({dented})), 12, kBooleanRounding);
 }
 
 // Whether a vertex this near lies on the plane may be decided either way, but
@@ -127,7 +124,8 @@ TEST(CutAtZero, OfBoxesThatTouchThePlaneIsThatOfTheirSquares) {
           squares += support::evaluate_program(scene, inside) ? 1 : 0;
         }
       }
-      EXPECT_NEAR(plane::area(cut_at_zero(scene, touch)), squares, kRounding)
+      EXPECT_NEAR(plane::area(cut_at_zero(scene, touch)), squares,
+                  kBooleanRounding)
           << "round " << round;
     }
   }
@@ -180,10 +178,10 @@ TEST_F(Projections, OfNothingAreNothing) {
 
 TEST_F(Projections, LeaveOutWhatIsFlat) {
   EXPECT_NEAR(plane::area(shadow({b.node(Square{{5, 5}}), b.cube({1, 1, 1})})),
-              1, kRounding);
+              1, kBooleanRounding);
   EXPECT_TRUE(messages().empty());
   EXPECT_NEAR(plane::area(cut({b.node(Square{{5, 5}}), b.cube({1, 1, 1})})), 1,
-              kRounding);
+              kBooleanRounding);
   EXPECT_EQ(
       messages(),
       (std::vector<std::string>{"Ignoring 2D child object for 3D operation"}));
@@ -194,7 +192,7 @@ TEST_F(Projections, OfASphereIsItsWidestRing) {
   EXPECT_EQ(region.contours.size(), 1u);
   EXPECT_EQ(region.contours[0].size(), 60u);
   const double r = 5 * std::sin(std::numbers::pi * 14.5 / 30);
-  EXPECT_NEAR(plane::area(region), r * r * polygon_area(60), kRounding);
+  EXPECT_NEAR(plane::area(region), r * r * polygon_area(60), kBooleanRounding);
 }
 
 // A torus that stands upright hides its own hole, one that lies shows it.
@@ -204,7 +202,7 @@ TEST_F(Projections, OfATorusHaveItsHole) {
              {b.translate({3, 0, 0}, {b.node(Square{{1, 1}})})});
   const plane::Region lying = shadow({torus});
   EXPECT_EQ(lying.contours.size(), 2u);
-  EXPECT_NEAR(plane::area(lying), 7 * polygon_area(40), kRounding);
+  EXPECT_NEAR(plane::area(lying), 7 * polygon_area(40), kBooleanRounding);
 }
 
 TEST_F(Projections, OfADifferenceShowWhatIsLeft) {
@@ -213,13 +211,13 @@ TEST_F(Projections, OfADifferenceShowWhatIsLeft) {
                      b.translate({0, 0, -9}, {b.cylinder(18, 2, 2, 30)})});
   const plane::Region region = shadow({pierced});
   EXPECT_EQ(region.contours.size(), 2u);
-  EXPECT_NEAR(plane::area(region), 36 - 4 * polygon_area(30), kRounding);
+  EXPECT_NEAR(plane::area(region), 36 - 4 * polygon_area(30), kBooleanRounding);
   // Half of a sphere, cut off upright.
   const Node* half = b.node(
       Intersection{},
       {b.sphere(5, 40), b.translate({0, -9, -9}, {b.cube({18, 18, 18})})});
   EXPECT_NEAR(plane::area(shadow({half})),
-              plane::area(shadow({b.sphere(5, 40)})) / 2, kRounding);
+              plane::area(shadow({b.sphere(5, 40)})) / 2, kBooleanRounding);
 }
 
 TEST_F(Projections, ObeyTheLawsOfSets) {
@@ -239,7 +237,7 @@ TEST_F(Projections, ObeyTheLawsOfSets) {
     const Node* c = b.node(Difference{}, {solid(), solid()});
     const std::vector<plane::Region> shadows{shadow({a}), shadow({c})};
     EXPECT_NEAR(difference(shadow({a, c}), plane::unite(shadows)), 0,
-                kRounding);
+                kBooleanRounding);
     // A cut goes through the Boolean, a shadow does not.
     const auto at = [&](const Node* node) {
       return cut({b.translate({0, 0, 0.01}, {node})});
@@ -247,10 +245,10 @@ TEST_F(Projections, ObeyTheLawsOfSets) {
     const std::vector<plane::Region> sections{at(a), at(c)};
     EXPECT_NEAR(difference(at(b.node(Intersection{}, {a, c})),
                            plane::intersect(sections)),
-                0, kRounding);
+                0, kBooleanRounding);
     EXPECT_NEAR(
         difference(at(b.node(Difference{}, {a, c})), plane::subtract(sections)),
-        0, kRounding);
+        0, kBooleanRounding);
   }
 }
 

@@ -9,7 +9,7 @@
 namespace lamina::csg {
 namespace {
 
-const std::string kPyramid =
+const std::string kObjPyramid =
     "# a pyramid\n"
     "mtllib some.mtl\n"
     "o pyramid\n"
@@ -28,7 +28,7 @@ const std::string kPyramid =
     "f 4 1 5\n";
 
 TEST(ParseObj, ReadsVerticesAndFacesOfAllForms) {
-  const RawMesh raw = parse_obj(kPyramid);
+  const RawMesh raw = parse_obj(kObjPyramid);
   EXPECT_EQ(raw.mesh.vertices,
             (std::vector<Vec3>{
                 {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 3}}));
@@ -53,8 +53,9 @@ TEST(ParseObj, SaysWhatWasExpectedWhere) {
 }
 
 TEST(ParseObj, SurvivesWhateverBefallsAFile) {
-  expect_no_harm(
-      kPyramid, [](std::string_view bytes) { expect_whole(parse_obj(bytes)); });
+  expect_no_harm(kObjPyramid, [](std::string_view bytes) {
+    expect_whole(parse_obj(bytes));
+  });
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace lamina::csg {
 namespace {
 
-const std::string kPyramid =
+const std::string kOffPyramid =
     "# a pyramid\n"
     "OFF\n"
     "5 5 0\n"
@@ -27,7 +27,7 @@ const std::string kPyramid =
     "3 3 0 4\n";
 
 TEST(ParseOff, ReadsVerticesTrianglesAndPolygons) {
-  const RawMesh raw = parse_off(kPyramid);
+  const RawMesh raw = parse_off(kOffPyramid);
   EXPECT_EQ(raw.mesh.vertices,
             (std::vector<Vec3>{
                 {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 3}}));
@@ -38,16 +38,16 @@ TEST(ParseOff, ReadsVerticesTrianglesAndPolygons) {
 }
 
 TEST(ParseOff, ReadsAHeaderThatTheNumbersFollowAtOnce) {
-  std::string glued = kPyramid;
+  std::string glued = kOffPyramid;
   glued.replace(glued.find("OFF\n"), 4, "OFF");
-  EXPECT_EQ(parse_off(glued).mesh, parse_off(kPyramid).mesh);
-  EXPECT_EQ(parse_off(glued).polygons, parse_off(kPyramid).polygons);
+  EXPECT_EQ(parse_off(glued).mesh, parse_off(kOffPyramid).mesh);
+  EXPECT_EQ(parse_off(glued).polygons, parse_off(kOffPyramid).polygons);
 }
 
 TEST(ParseOff, ReadsLinesThatEndAsOnOldMacintoshes) {
-  std::string returns = kPyramid;
+  std::string returns = kOffPyramid;
   std::ranges::replace(returns, '\n', '\r');
-  EXPECT_EQ(parse_off(returns).mesh, parse_off(kPyramid).mesh);
+  EXPECT_EQ(parse_off(returns).mesh, parse_off(kOffPyramid).mesh);
 }
 
 TEST(ParseOff, PassesOverColoursAndNormals) {
@@ -89,8 +89,9 @@ TEST(ParseOff, CountsThatTheFileCannotHoldTakeNoMemory) {
 }
 
 TEST(ParseOff, SurvivesWhateverBefallsAFile) {
-  expect_no_harm(
-      kPyramid, [](std::string_view bytes) { expect_whole(parse_off(bytes)); });
+  expect_no_harm(kOffPyramid, [](std::string_view bytes) {
+    expect_whole(parse_off(bytes));
+  });
 }
 
 }  // namespace

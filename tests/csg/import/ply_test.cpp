@@ -11,13 +11,13 @@
 namespace lamina::csg {
 namespace {
 
-const std::string kPyramidOff =
+const std::string kPlainOffPyramid =
     "OFF\n5 5 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 3\n"
     "4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
 
 // The same with much that does not matter: comments, an element between,
 // colours, a list of a vertex, the axes in another order.
-const std::string kPyramid =
+const std::string kPlyPyramid =
     "ply\r\n"
     "format ascii 1.0\r\n"
     "comment made by hand\n"
@@ -87,13 +87,13 @@ std::string binary_pyramid(bool is_big_endian) {
 }
 
 void expect_pyramid(const RawMesh& raw) {
-  const RawMesh off = parse_off(kPyramidOff);
+  const RawMesh off = parse_off(kPlainOffPyramid);
   EXPECT_EQ(raw.mesh, off.mesh);
   EXPECT_EQ(raw.polygons, off.polygons);
 }
 
 TEST(ParsePly, ReadsInEveryEncodingWhatOffReads) {
-  expect_pyramid(parse_ply(kPyramid));
+  expect_pyramid(parse_ply(kPlyPyramid));
   expect_pyramid(parse_ply(binary_pyramid(false)));
   expect_pyramid(parse_ply(binary_pyramid(true)));
 }
@@ -174,7 +174,7 @@ TEST(ParsePly, CountsThatTheFileCannotHoldTakeNeitherMemoryNorTime) {
 
 TEST(ParsePly, SurvivesWhateverBefallsAFile) {
   for (const std::string& file :
-       {kPyramid, binary_pyramid(false), binary_pyramid(true)}) {
+       {kPlyPyramid, binary_pyramid(false), binary_pyramid(true)}) {
     expect_no_harm(
         file, [](std::string_view bytes) { expect_whole(parse_ply(bytes)); });
   }

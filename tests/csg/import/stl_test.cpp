@@ -47,13 +47,13 @@ std::string binary(const std::string& header,
   return bytes;
 }
 
-const std::vector<Vec3> kCorners = {{0, 0, 0}, {1.5, 0, 0}, {0, 2, -0.25}};
+const std::vector<Vec3> kFacetCorners = {{0, 0, 0}, {1.5, 0, 0}, {0, 2, -0.25}};
 const std::vector<std::vector<float>> kFacets = {
     {0, 0, 0, 1.5, 0, 0, 0, 2, -0.25}, {1, 2, 3, 4, 5, 6, 7, 8, 9}};
 
 TEST(ParseStl, ReadsTheVerticesOfText) {
   const RawMesh raw = parse_stl(kText);
-  EXPECT_EQ(raw.mesh.vertices, kCorners);
+  EXPECT_EQ(raw.mesh.vertices, kFacetCorners);
   EXPECT_EQ(raw.mesh.triangles.size(), 1U);
 }
 
@@ -65,7 +65,7 @@ TEST(ParseStl, ReadsTextInCapitalsAndWithOtherEndsOfLines) {
   std::string both;
   for (const char c : kText) both += c == '\n' ? "\r\n" : std::string(1, c);
   for (const std::string& text : {capitals, returns, both}) {
-    EXPECT_EQ(parse_stl(text).mesh.vertices, kCorners) << text;
+    EXPECT_EQ(parse_stl(text).mesh.vertices, kFacetCorners) << text;
   }
 }
 
@@ -73,7 +73,7 @@ TEST(ParseStl, ReadsBinary) {
   const RawMesh raw = parse_stl(binary("some program", kFacets));
   ASSERT_EQ(raw.mesh.triangles.size(), 2U);
   ASSERT_EQ(raw.mesh.vertices.size(), 6U);
-  EXPECT_EQ(raw.mesh.vertices[2], kCorners[2]);
+  EXPECT_EQ(raw.mesh.vertices[2], kFacetCorners[2]);
   EXPECT_EQ(raw.mesh.vertices[5], Vec3(7, 8, 9));
 }
 
@@ -130,7 +130,7 @@ TEST(ParseStl, ReadsTheSameFacetsInWhateverOrder) {
 TEST(ParseStl, ReadsFacetsThatAreAllTheSame) {
   const std::vector<std::vector<float>> facets(20'000, kFacets[0]);
   const Mesh mesh = parse_stl(binary("x", facets)).mesh;
-  EXPECT_EQ(mesh.vertices, kCorners);
+  EXPECT_EQ(mesh.vertices, kFacetCorners);
   EXPECT_EQ(mesh.triangles.size(), facets.size());
 }
 

@@ -14,7 +14,8 @@ namespace {
 using Points = std::vector<Vec2>;
 
 // Strokes come out as the path itself.
-std::vector<SvgContours> parse(std::string_view text, SvgOptions options = {}) {
+std::vector<SvgContours> parse_shapes(std::string_view text,
+                                      SvgOptions options = {}) {
   options.outline = [](std::span<const Vec2> path, const SvgStroke&) {
     return SvgContours{{path.begin(), path.end()}};
   };
@@ -23,8 +24,8 @@ std::vector<SvgContours> parse(std::string_view text, SvgOptions options = {}) {
 
 // The contours of one path in a page of its own, y down as in the file.
 SvgContours path(const std::string& data) {
-  const auto shapes =
-      parse("<svg width=\"0\" height=\"0\"><path d=\"" + data + "\"/></svg>");
+  const auto shapes = parse_shapes("<svg width=\"0\" height=\"0\"><path d=\"" +
+                                   data + "\"/></svg>");
   if (shapes.empty()) return {};
   SvgContours contours = shapes.at(0);
   for (auto& contour : contours) {
@@ -87,9 +88,9 @@ TEST(ParseSvg, ArcsLieOnTheirCircle) {
 
 TEST(ParseSvg, UnitsViewBoxAndAspectGiveMillimetres) {
   const auto corner = [](const std::string& page) {
-    const auto shapes = parse("<svg " + page +
-                              "><rect x=\"0\" y=\"0\" width=\"10\" "
-                              "height=\"10\"/></svg>");
+    const auto shapes = parse_shapes("<svg " + page +
+                                     "><rect x=\"0\" y=\"0\" width=\"10\" "
+                                     "height=\"10\"/></svg>");
     return shapes.at(0).at(0).at(2);  // x + width, y + height
   };
   const auto expect_at = [&](const std::string& page, Vec2 expected) {
@@ -120,7 +121,7 @@ TEST(ParseSvg, UnitsViewBoxAndAspectGiveMillimetres) {
 }
 
 TEST(ParseSvg, TransformsApplyFromTheInsideOut) {
-  const auto shapes = parse(
+  const auto shapes = parse_shapes(
       R"svg(<svg height="0" width="0"><g transform="translate(10,20)">
       <g transform="rotate(90 1 1),scale(2)">
       <polygon points="0 0 1 0 1 1" transform="matrix(1 0 0 1 5 0)"/>
@@ -132,9 +133,10 @@ TEST(ParseSvg, TransformsApplyFromTheInsideOut) {
 }
 
 TEST(ParseSvg, DefinitionsDrawNothingByThemselves) {
-  EXPECT_TRUE(parse(R"svg(<svg><defs><g id="a"><rect width="1" height="1"/>
+  EXPECT_TRUE(
+      parse_shapes(R"svg(<svg><defs><g id="a"><rect width="1" height="1"/>
       <use href="#a"/></g></defs></svg>)svg")
-                  .empty());
+          .empty());
 }
 
 TEST(ParseSvg, OpenPathsAreDrawnAsTheirStrokeSays) {
@@ -160,13 +162,13 @@ TEST(ParseSvg, OpenPathsAreDrawnAsTheirStrokeSays) {
 }
 
 TEST(ParseSvg, SaysWhatIsWrong) {
-  EXPECT_NE(fault_of([] { parse("garbage"); }), "");
+  EXPECT_NE(fault_of([] { parse_shapes("garbage"); }), "");
   std::string deep = "<svg>";
   for (int i = 0; i < 100000; ++i) deep += "<g>";
-  EXPECT_NE(fault_of([&] { parse(deep); }), "");
+  EXPECT_NE(fault_of([&] { parse_shapes(deep); }), "");
   for (int i = 0; i < 100000; ++i) deep += "</g>";
   deep += "</svg>";
-  EXPECT_EQ(fault_of([&] { parse(deep); }),
+  EXPECT_EQ(fault_of([&] { parse_shapes(deep); }),
             "SVG elements are nested more than 500 deep");
 }
 
@@ -175,7 +177,7 @@ TEST(ParseSvg, SurvivesWhateverBefallsAFile) {
       R"svg(<svg viewBox="0 0 9 9" width="9mm"><g transform="rotate(5 1 1)">
       <path d="M0 0c1 2 3 4 5 6a1 2 3 0 1 4 5q1 2 3 4t5 6h3z"
       style="stroke-width:3"/><rect width="3" height="4" rx="1"/></g></svg>)svg";
-  expect_no_harm(text, [](std::string_view bytes) { parse(bytes); });
+  expect_no_harm(text, [](std::string_view bytes) { parse_shapes(bytes); });
 }
 
 // --- What newer OpenSCAD reads
@@ -212,8 +214,8 @@ TEST(ParseSvg, DisplayNoneDrawsNothing) {
       "<svg><rect width='1' height='1' display='none'/>"
       "<g style='display:none'><rect width='1' height='1'/></g>"
       "<rect width='1' height='1' style='display:inline'/></svg>";
-  EXPECT_EQ(parse(text).size(), 3u) << "2021.01 does not know display";
-  EXPECT_EQ(parse(text, {.language = Language::k2026}).size(), 1u);
+  EXPECT_EQ(parse_shapes(text).size(), 3u) << "2021.01 does not know display";
+  EXPECT_EQ(parse_shapes(text, {.language = Language::k2026}).size(), 1u);
 }
 
 TEST(ParseSvg, UseDrawsWhatItNamesMovedThere) {
@@ -221,8 +223,8 @@ TEST(ParseSvg, UseDrawsWhatItNamesMovedThere) {
       "<svg width='9mm' height='9mm' viewBox='0 0 9 9'>"
       "<defs><rect id='a' width='1' height='1'/></defs>"
       "<use href='#a' x='2' y='3'/></svg>";
-  EXPECT_TRUE(parse(text).empty()) << "2021.01 does not know <use>";
-  const auto shapes = parse(text, {.language = Language::k2026});
+  EXPECT_TRUE(parse_shapes(text).empty()) << "2021.01 does not know <use>";
+  const auto shapes = parse_shapes(text, {.language = Language::k2026});
   ASSERT_EQ(shapes.size(), 1u);
   Vec2 low(9);
   for (const Vec2 point : shapes[0][0]) low = glm::min(low, point);

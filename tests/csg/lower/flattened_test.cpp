@@ -12,8 +12,6 @@
 namespace lamina::csg {
 namespace {
 
-constexpr double kRounding = 1e-6;
-
 class Flattened : public LowerFixture {
  protected:
   // A unit square in the plane x = 0, and a point.

@@ -15,6 +15,12 @@
 
 namespace lamina::csg {
 
+// How far sizes, areas and volumes of solids of a few millimetres may be off.
+inline constexpr double kRounding = 1e-6;
+
+// The same after Booleans of regions, which take edges within 3e-8 mm for one.
+inline constexpr double kBooleanRounding = 1e-5;
+
 class LowerFixture : public ::testing::Test {
  protected:
   Lowered run(const TreeBuilder::Children& children) {

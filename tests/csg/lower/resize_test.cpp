@@ -13,8 +13,6 @@
 namespace lamina::csg {
 namespace {
 
-constexpr double kRounding = 1e-6;
-
 class Resizes : public LowerFixture {
  protected:
   Box3 resize(Vec3 size, std::array<bool, 3> automatic,
