@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.h"
 #include "plane/tie_distance.h"
+#include "tests/ldni/image/ray_reference.h"
 #include "tests/support/leaf_scenes.h"
 
 namespace lamina::ldni {
@@ -15,15 +16,6 @@ namespace {
 
 using csg::Scene;
 using plane::BooleanOp;
-
-struct Range {
-  double enter;
-  double exit;
-  bool operator==(const Range&) const = default;
-};
-std::ostream& operator<<(std::ostream& out, const Range& range) {
-  return out << "[" << range.enter << ", " << range.exit << ")";
-}
 
 Sample make_sample(double depth, std::uint32_t instance, bool is_entry) {
   return {depth, glm::vec3(0.6F, is_entry ? -0.8F : 0.8F, 0), instance};
@@ -39,7 +31,7 @@ Scene operands(BooleanOp op, int count, bool may_overlap_itself = false) {
 }
 
 void add_samples(std::vector<Sample>& samples, std::uint32_t instance,
-                 const std::vector<Range>& ranges) {
+                 const Ranges& ranges) {
   for (const Range& range : ranges) {
     samples.push_back(make_sample(range.enter, instance, true));
     samples.push_back(make_sample(range.exit, instance, false));
@@ -55,8 +47,8 @@ std::vector<Interval> evaluate(
   return intervals;
 }
 
-std::vector<Range> ranges_of(const std::vector<Interval>& intervals) {
-  std::vector<Range> ranges;
+Ranges ranges_of(const std::vector<Interval>& intervals) {
+  Ranges ranges;
   ranges.reserve(intervals.size());
   for (const Interval& interval : intervals) {
     ranges.push_back({interval.enter.depth, interval.exit.depth});
@@ -64,8 +56,7 @@ std::vector<Range> ranges_of(const std::vector<Interval>& intervals) {
   return ranges;
 }
 
-std::vector<Range> evaluate_two(BooleanOp op, const std::vector<Range>& a,
-                                const std::vector<Range>& b) {
+Ranges evaluate_two(BooleanOp op, const Ranges& a, const Ranges& b) {
   std::vector<Sample> samples;
   add_samples(samples, 0, a);
   add_samples(samples, 1, b);
@@ -74,7 +65,7 @@ std::vector<Range> evaluate_two(BooleanOp op, const std::vector<Range>& a,
 
 // --- Section 4.2 of Zeng et al. 2011 ----------------------------------------
 
-bool is_inside(double depth, const std::vector<Range>& ranges) {
+bool is_inside(double depth, const Ranges& ranges) {
   return std::any_of(ranges.begin(), ranges.end(), [&](const Range& range) {
     return range.enter <= depth && depth < range.exit;
   });
@@ -83,13 +74,11 @@ bool is_inside(double depth, const std::vector<Range>& ranges) {
 // The end points of A and B that survive, ascending: for A ∪ B those of each
 // outside of the other, for A ∩ B those inside, for A − B those of A outside
 // of B and those of B inside of A. No end points coincide.
-std::vector<Range> classify(BooleanOp op, const std::vector<Range>& a,
-                            const std::vector<Range>& b) {
+Ranges classify(BooleanOp op, const Ranges& a, const Ranges& b) {
   const bool keeps_a_inside = op == BooleanOp::kIntersection;
   const bool keeps_b_inside = op != BooleanOp::kUnion;
   std::vector<double> kept;
-  const auto keep = [&](const std::vector<Range>& from,
-                        const std::vector<Range>& other, bool inside) {
+  const auto keep = [&](const Ranges& from, const Ranges& other, bool inside) {
     for (const Range& range : from) {
       for (const double depth : {range.enter, range.exit}) {
         if (is_inside(depth, other) == inside) kept.push_back(depth);
@@ -99,7 +88,7 @@ std::vector<Range> classify(BooleanOp op, const std::vector<Range>& a,
   keep(a, b, keeps_a_inside);
   keep(b, a, keeps_b_inside);
   std::sort(kept.begin(), kept.end());
-  std::vector<Range> result;
+  Ranges result;
   for (std::size_t i = 0; i + 1 < kept.size(); i += 2) {
     result.push_back({kept[i], kept[i + 1]});
   }
@@ -107,12 +96,12 @@ std::vector<Range> classify(BooleanOp op, const std::vector<Range>& a,
 }
 
 // Up to five disjoint ranges with ends anywhere.
-std::vector<Range> random_ranges(std::mt19937& random) {
+Ranges random_ranges(std::mt19937& random) {
   std::vector<double> depths(2 * (random() % 6));
   std::uniform_real_distribution<double> depth(-10, 10);
   for (double& d : depths) d = depth(random);
   std::sort(depths.begin(), depths.end());
-  std::vector<Range> ranges;
+  Ranges ranges;
   for (std::size_t i = 0; i < depths.size(); i += 2) {
     ranges.push_back({depths[i], depths[i + 1]});
   }
@@ -122,8 +111,8 @@ std::vector<Range> random_ranges(std::mt19937& random) {
 TEST(EvaluateRay, KeepsTheEndPointsThatThePaperKeepsForTwoOperands) {
   std::mt19937 random(4);
   for (int round = 0; round < 20000; ++round) {
-    const std::vector<Range> a = random_ranges(random);
-    const std::vector<Range> b = random_ranges(random);
+    const Ranges a = random_ranges(random);
+    const Ranges b = random_ranges(random);
     for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kIntersection,
                                BooleanOp::kDifference}) {
       ASSERT_EQ(evaluate_two(op, a, b), classify(op, a, b));
@@ -183,9 +172,9 @@ std::vector<Sample> random_samples(const Scene& scene, std::mt19937& random,
   return samples;
 }
 
-std::vector<Range> evaluate_cells(
-    const Scene& scene, const std::vector<std::vector<bool>>& covered) {
-  std::vector<Range> result;
+Ranges evaluate_cells(const Scene& scene,
+                      const std::vector<std::vector<bool>>& covered) {
+  Ranges result;
   for (std::size_t cell = 0; cell < kCells; ++cell) {
     if (!support::evaluate_program(scene, covered[cell])) continue;
     const auto depth = static_cast<double>(cell);
@@ -219,7 +208,7 @@ TEST(EvaluateRay, IgnoresDifferencesBelowTheTieDistance) {
     std::vector<std::vector<bool>> covered;
     std::vector<Sample> samples = random_samples(scene, random, covered);
     for (Sample& sample : samples) sample.depth += noise(random);
-    std::vector<Range> ranges = ranges_of(evaluate(scene, samples));
+    Ranges ranges = ranges_of(evaluate(scene, samples));
     for (Range& range : ranges) {
       range = {std::round(range.enter), std::round(range.exit)};
     }
@@ -250,27 +239,26 @@ TEST(EvaluateRay, DoesNotDependOnTheOrderOfTheSamples) {
 
 TEST(EvaluateRay, UnitesSolidsThatTouchWithoutAnInnerWall) {
   EXPECT_EQ(evaluate_two(BooleanOp::kUnion, {{0, 1}}, {{1, 2}}),
-            (std::vector<Range>{{0, 2}}));
+            (Ranges{{0, 2}}));
   EXPECT_EQ(evaluate_two(BooleanOp::kUnion, {{0, 1 + 4e-7}}, {{1, 2}}),
-            (std::vector<Range>{{0, 2}}));
+            (Ranges{{0, 2}}));
   EXPECT_EQ(evaluate_two(BooleanOp::kUnion, {{0, 1 - 4e-7}}, {{1, 2}}),
-            (std::vector<Range>{{0, 2}}));
+            (Ranges{{0, 2}}));
   EXPECT_EQ(evaluate_two(BooleanOp::kUnion, {{0, 1 - 4e-6}}, {{1, 2}}).size(),
             2U);
 }
 
 TEST(EvaluateRay, DifferenceWithCoplanarFacesLeavesNoSkin) {
-  EXPECT_EQ(evaluate_two(BooleanOp::kDifference, {{0, 3}}, {{0, 3}}),
-            std::vector<Range>{});
+  EXPECT_EQ(evaluate_two(BooleanOp::kDifference, {{0, 3}}, {{0, 3}}), Ranges{});
   EXPECT_EQ(evaluate_two(BooleanOp::kDifference, {{0, 3}}, {{4e-7, 3 - 4e-7}}),
-            std::vector<Range>{});
+            Ranges{});
   EXPECT_EQ(evaluate_two(BooleanOp::kDifference, {{0, 3}}, {{2, 3}}),
-            (std::vector<Range>{{0, 2}}));
+            (Ranges{{0, 2}}));
 }
 
 TEST(EvaluateRay, IntersectionOfSolidsThatTouchIsEmpty) {
   EXPECT_EQ(evaluate_two(BooleanOp::kIntersection, {{0, 1}}, {{1, 2}}),
-            std::vector<Range>{});
+            Ranges{});
 }
 
 TEST(EvaluateRay, DifferenceFlipsTheNormalOfTheSubtrahend) {
@@ -307,7 +295,7 @@ TEST(EvaluateRay, CountsWindingsOfALeafThatOverlapsItself) {
   std::vector<Sample> samples;
   add_samples(samples, 0, {{0, 5}, {3, 8}, {3, 4}});
   EXPECT_EQ(ranges_of(evaluate(operands(BooleanOp::kUnion, 1, true), samples)),
-            (std::vector<Range>{{0, 8}}));
+            (Ranges{{0, 8}}));
 }
 
 TEST(EvaluateRay, InsideOutPartsOfALeafThatOverlapsItselfAreSolidToo) {
@@ -316,7 +304,7 @@ TEST(EvaluateRay, InsideOutPartsOfALeafThatOverlapsItselfAreSolidToo) {
   samples.push_back(make_sample(5, 0, false));
   samples.push_back(make_sample(7, 0, true));
   EXPECT_EQ(ranges_of(evaluate(operands(BooleanOp::kUnion, 1, true), samples)),
-            (std::vector<Range>{{0, 2}, {5, 7}}));
+            (Ranges{{0, 2}, {5, 7}}));
 }
 
 TEST(EvaluateRay, AppendsRayAfterRay) {
@@ -328,7 +316,7 @@ TEST(EvaluateRay, AppendsRayAfterRay) {
   add_samples(samples, 0, {{0, 1}});
   boolean.evaluate(samples, intervals);
   boolean.evaluate(samples, intervals);
-  EXPECT_EQ(ranges_of(intervals), (std::vector<Range>{{0, 1}, {0, 1}}));
+  EXPECT_EQ(ranges_of(intervals), (Ranges{{0, 1}, {0, 1}}));
 }
 
 TEST(EvaluateRay, ALeafThatIsNeverLeftIsABrokenPromise) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,11 @@ namespace lamina::ldni {
 struct Range {
   double enter;
   double exit;
+  bool operator==(const Range&) const = default;
 };
+inline std::ostream& operator<<(std::ostream& out, const Range& range) {
+  return out << "[" << range.enter << ", " << range.exit << ")";
+}
 using Ranges = std::vector<Range>;
 
 // Ranges of the scene's result along +y at one x (within 1e-12 mm of `x`,
