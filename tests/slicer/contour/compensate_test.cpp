@@ -26,8 +26,6 @@ namespace {
 using plane::Contours;
 using support::add_loop;
 
-constexpr double kPi = std::numbers::pi;
-
 // What rounding to the clipper's grid may add to a distance [mm].
 constexpr double kRounding = 1e-7;
 
@@ -99,20 +97,21 @@ TEST(Compensate, InwardsABoxLosesTheAmountOnEachSideAndKeepsItsCorners) {
 TEST(Compensate, OutwardsABoxGainsRoundCorners) {
   const double r = 0.25;
   const Contours after = moved(of({box({0, 0}, {2, 3})}), -r).contours;
-  const double area = 6 + 10 * r + kPi * r * r;
+  const double area = 6 + 10 * r + std::numbers::pi * r * r;
   EXPECT_LE(support::total_area(after), area + kRounding);
-  EXPECT_GE(support::total_area(after), area - 2 * kPi * r * kArcTolerance);
+  EXPECT_GE(support::total_area(after),
+            area - 2 * std::numbers::pi * r * kArcTolerance);
 }
 
 TEST(Compensate, HolesGoTheOtherWay) {
   const double r = 0.25;
   const Contours plate = of({box({0, 0}, {9, 9}), box({2, 2}, {5, 6}, true)});
-  const double widened = 12 + 14 * r + kPi * r * r;
+  const double widened = 12 + 14 * r + std::numbers::pi * r * r;
   EXPECT_NEAR(support::total_area(moved(plate, r).contours),
-              8.5 * 8.5 - widened, 2 * kPi * r * kArcTolerance);
-  const double outside = 81 + 36 * r + kPi * r * r;
+              8.5 * 8.5 - widened, 2 * std::numbers::pi * r * kArcTolerance);
+  const double outside = 81 + 36 * r + std::numbers::pi * r * r;
   EXPECT_NEAR(support::total_area(moved(plate, -r).contours),
-              outside - 2.5 * 3.5, 2 * kPi * r * kArcTolerance);
+              outside - 2.5 * 3.5, 2 * std::numbers::pi * r * kArcTolerance);
 }
 
 TEST(Compensate, TheResultIsTheOffsetByItsDefinition) {
@@ -124,7 +123,7 @@ TEST(Compensate, TheResultIsTheOffsetByItsDefinition) {
     std::vector<Vec2> inner;
     const int count = 9 + static_cast<int>(random() % 40);
     for (int i = 0; i < count; ++i) {
-      const double angle = 2 * kPi * i / count;
+      const double angle = 2 * std::numbers::pi * i / count;
       const Vec2 ray(std::cos(angle), std::sin(angle));
       outer.push_back((3.2 + 1.6 * unit(random)) * ray);
       inner.insert(inner.begin(), (1.2 + 1.6 * unit(random)) * ray);
@@ -149,7 +148,7 @@ TEST(Compensate, AWallThinnerThanTheBeamVanishes) {
 
 TEST(Compensate, AWallJustAsThickAsTheBeamVanishesHoweverItIsTurned) {
   for (int degrees = 0; degrees < 360; ++degrees) {
-    const double angle = degrees * kPi / 180;
+    const double angle = degrees * std::numbers::pi / 180;
     const Vec2 x(std::cos(angle), std::sin(angle));
     std::vector<Vec2> wall = box({-2, -0.1}, {2, 0.1});
     for (Vec2& p : wall) p = p.x * x + p.y * left_of(x);

@@ -22,14 +22,13 @@ using plane::Contours;
 using support::add_loop;
 using support::distance_to_edges;
 
-constexpr double kPi = std::numbers::pi;
-
 // counter-clockwise; clockwise for a hole
 std::vector<Vec2> circle(Vec2 center, double radius, int count,
                          bool is_hole = false, double phase = 0) {
   std::vector<Vec2> points;
   for (int i = 0; i < count; ++i) {
-    const double angle = phase + (is_hole ? -2 : 2) * kPi * i / count;
+    const double angle =
+        phase + (is_hole ? -2 : 2) * std::numbers::pi * i / count;
     points.push_back(center + radius * Vec2(std::cos(angle), std::sin(angle)));
   }
   return points;
@@ -63,7 +62,7 @@ TEST(Simplify, ACircleKeepsAboutAsManyVerticesAsTheToleranceNeeds) {
   const double tolerance = 0.001;
   const Contours after = simplified(contours, tolerance);
   // A chord of angle α is r (1 - cos α/2) from its arc.
-  const double fewest = kPi / std::acos(1 - tolerance / 10);
+  const double fewest = std::numbers::pi / std::acos(1 - tolerance / 10);
   EXPECT_LT(static_cast<double>(after.points.size()), 1.1 * fewest);
   expect_lawful(contours, tolerance, "circle");
 }
@@ -72,7 +71,8 @@ TEST(Simplify, ACircleKeepsAboutAsManyVerticesAsTheToleranceNeeds) {
 // the tolerance from the circle: a side of angle α is r (1 - cos α/2) from its
 // arc.
 double fewest_of_circle(double radius, double tolerance) {
-  return std::max(3.0, std::ceil(kPi / std::acos(1 - tolerance / radius)));
+  return std::max(
+      3.0, std::ceil(std::numbers::pi / std::acos(1 - tolerance / radius)));
 }
 
 TEST(Simplify, CirclesKeepHardlyMoreVerticesThanTheFewest) {
@@ -321,7 +321,8 @@ TEST(Simplify, ASpiralOfThousandsOfWallsStaysOpen) {
   constexpr int kPoints = 20000;
   std::vector<Vec2> spiral;
   const auto at = [](double i) {
-    return (1 + i / 10000) * Vec2(std::cos(i * kPi / 5), std::sin(i * kPi / 5));
+    return (1 + i / 10000) * Vec2(std::cos(i * std::numbers::pi / 5),
+                                  std::sin(i * std::numbers::pi / 5));
   };
   for (int i = 0; i < kPoints; ++i) spiral.push_back(at(i));
   for (int i = kPoints - 1; i >= 0; --i) spiral.push_back(at(i) * (1 - 1e-4));

@@ -14,15 +14,6 @@ namespace {
 
 using namespace std::string_literals;
 
-// A square with a square hole, an empty layer, a triangle.
-std::vector<Layer> three_layers() {
-  return {layer_at(1.0, 1.5,
-                   {{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
-                    {{1, 1}, {1, 3}, {3, 3}, {3, 1}}}),
-          layer_at(1.5, 2.0, {}),
-          layer_at(2.0, 2.5, {{{-2, 0.5}, {2, 0.5}, {0, 3}}})};
-}
-
 WriterOptions as_cli(CliEncoding encoding) {
   return {.format = OutputFormat::kCli, .cli = encoding};
 }

@@ -85,16 +85,6 @@ bool is_sound(const Layer& layer) {
              contours.points.size();
 }
 
-// A square with a square hole, an empty layer, a triangle; numbers that float32
-// holds.
-std::vector<Layer> three_layers() {
-  return {layer_at(1.0, 1.5,
-                   {{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
-                    {{1, 1}, {1, 3}, {3, 3}, {3, 1}}}),
-          layer_at(1.5, 2.0, {}),
-          layer_at(2.0, 2.5, {{{-2, 0.5}, {2, 0.5}, {0, 3}}})};
-}
-
 struct Written {
   std::string name;
   std::string bytes;

@@ -22,6 +22,16 @@ inline Layer layer_at(double bottom, double top,
   return layer;
 }
 
+// A square with a square hole, an empty layer, a triangle; numbers that float32
+// holds.
+inline std::vector<Layer> three_layers() {
+  return {layer_at(1.0, 1.5,
+                   {{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
+                    {{1, 1}, {1, 3}, {3, 3}, {3, 1}}}),
+          layer_at(1.5, 2.0, {}),
+          layer_at(2.0, 2.5, {{{-2, 0.5}, {2, 0.5}, {0, 3}}})};
+}
+
 // The bytes that a writer writes.
 inline std::string written(const std::vector<Layer>& layers,
                            const WriterOptions& options,

@@ -16,7 +16,7 @@ namespace {
 
 using support::Design;
 
-constexpr double kPitch = 0.1;
+constexpr double kBallPitch = 0.1;
 
 TEST(BallFinder, FindsTheNearestPoint) {
   const Design design = Design::from_text("sphere(3, $fn = 24);");
@@ -43,7 +43,7 @@ TEST(BallFinder, MeasuresAPlateHoweverItLies) {
                            "[20, 55, 10]", "[0, 45, 45]"}) {
     const Design design = Design::from_text(
         "rotate(" + std::string(turn) + ") cube([8, 8, 0.6], center = true);");
-    const SolidSamples samples = sample_solid(design.scene(), kPitch);
+    const SolidSamples samples = sample_solid(design.scene(), kBallPitch);
     const BallFinder balls(samples.points);
     int measured = 0;
     for (const SurfacePoint& point : samples.points) {
@@ -52,7 +52,7 @@ TEST(BallFinder, MeasuresAPlateHoweverItLies) {
       // Not near the rim, nor on it.
       if (glm::length(point.place) > 3) continue;
       EXPECT_GE(2 * ball.radius, 0.6 - 1e-6);
-      EXPECT_LE(2 * ball.radius, 0.6 + std::pow(kCover * kPitch, 2) / 0.6);
+      EXPECT_LE(2 * ball.radius, 0.6 + std::pow(kCover * kBallPitch, 2) / 0.6);
       const double angle = std::acos(
           std::clamp(glm::dot(point.place - ball.centre,
                               samples.points[*ball.stop].place - ball.centre) /
@@ -80,7 +80,7 @@ TEST(BallFinder, GrowsAsFarAsItMay) {
 TEST(BallFinder, MeasuresACone) {
   const Design design =
       Design::from_text("cylinder(r1 = 5, r2 = 0, h = 10, $fn = 400);");
-  const SolidSamples samples = sample_solid(design.scene(), kPitch);
+  const SolidSamples samples = sample_solid(design.scene(), kBallPitch);
   const BallFinder balls(samples.points);
   const double half_angle = std::atan(0.5);
   for (const SurfacePoint& point : samples.points) {

@@ -17,12 +17,13 @@ namespace {
 
 using support::Design;
 
-constexpr double kPitch = 0.1;
+constexpr double kEngravingPitch = 0.1;
 constexpr EngravingLimits kLimits = {1, 0.5};
 
 std::vector<Engraving> find(const std::string& text, double scale = 1) {
   const Design design = Design::from_text(text);
-  const SolidSamples samples = sample_solid(design.scene(), scale * kPitch);
+  const SolidSamples samples =
+      sample_solid(design.scene(), scale * kEngravingPitch);
   const BallFinder balls(samples.points);
   return find_engravings(samples, balls,
                          {scale * kLimits.width, scale * kLimits.depth});
@@ -124,7 +125,8 @@ TEST(FindEngravings, MeasuresAGrooveInsideARingFromCloselyBehindItsRims) {
     return 8.8 - std::sqrt(kRadius * kRadius - beside * beside);
   };
   EXPECT_GE(found[0].depth, height_at(0.3) - 1e-3);
-  EXPECT_LE(found[0].depth, height_at(0.3 + kRimSteps * kPitch) + 1e-3);
+  EXPECT_LE(found[0].depth,
+            height_at(0.3 + kRimSteps * kEngravingPitch) + 1e-3);
 }
 
 TEST(FindEngravings, MeasuresARoundGrooveToItsBottom) {
@@ -136,7 +138,7 @@ TEST(FindEngravings, MeasuresARoundGrooveToItsBottom) {
     ASSERT_EQ(found.size(), 1U);
     EXPECT_LE(found[0].depth, radius + 1e-6);
     // Between two rays, half a pitch beside the bottom.
-    const double beside = kPitch / 2;
+    const double beside = kEngravingPitch / 2;
     EXPECT_GE(found[0].depth,
               std::sqrt(radius * radius - beside * beside) - 1e-3);
   }

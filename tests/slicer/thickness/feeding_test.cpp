@@ -17,11 +17,11 @@ namespace {
 
 using support::Design;
 
-constexpr double kPitch = 0.15;
+constexpr double kFeedingPitch = 0.15;
 
 std::vector<Pool> pools_of(const std::string& text,
                            const std::vector<Gate>& gates,
-                           double pitch = kPitch) {
+                           double pitch = kFeedingPitch) {
   const Design design = Design::from_text(text);
   const SolidSamples samples = sample_solid(design.scene(), pitch);
   const BallFinder balls(samples.points);
@@ -30,7 +30,7 @@ std::vector<Pool> pools_of(const std::string& text,
 
 std::vector<Pool> cut_off(const std::string& text,
                           const std::vector<Gate>& gates,
-                          double pitch = kPitch) {
+                          double pitch = kFeedingPitch) {
   std::vector<Pool> pools = pools_of(text, gates, pitch);
   std::erase_if(pools, [](const Pool& pool) { return pool.is_fed; });
   return pools;
@@ -274,7 +274,8 @@ TEST_P(Castings, HaveTheSameAnswerTurnedMirroredAndScaled) {
   const std::string text =
       "multmatrix([[0, 0, 1.5], [-1.5, 0, 0], [0, 1.5, 0]]) {" +
       std::string(casting.text) + "}";
-  EXPECT_EQ(cut_off(text, gates, 1.5 * kPitch).size(), casting.cut_off) << text;
+  EXPECT_EQ(cut_off(text, gates, 1.5 * kFeedingPitch).size(), casting.cut_off)
+      << text;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -28,7 +28,7 @@ using support::Design;
 
 constexpr double kVoxel = 0.02;  // [mm]
 const double kDiagonal = std::sqrt(3.0) * kVoxel;
-constexpr double kPitch = 0.1;
+constexpr double kThicknessPitch = 0.1;
 
 // By what share a cell that is no summit may be taken for thicker.
 constexpr double kDoubt = 0.02;
@@ -199,21 +199,21 @@ TEST_P(Solids, AreAsThickAsTheirVoxels) {
   const Solid& solid = kSolids[GetParam()];
   SCOPED_TRACE(solid.name);
   const Design design = Design::from_text(solid.text);
-  const SolidSamples samples = sample_solid(design.scene(), kPitch);
+  const SolidSamples samples = sample_solid(design.scene(), kThicknessPitch);
   const BallFinder balls(samples.points);
   const ThicknessField field = measure_thickness(samples, balls);
   const Voxels voxels(design.scene().box, solid.is_inside);
 
   // A voxel's distance is too large by a diagonal at most, and never too small;
   // half a diagonal away from a cell it says as much of that.
-  const double cover = kCover * kPitch;
+  const double cover = kCover * kThicknessPitch;
   samples.cells.visit([&](std::uint32_t cell, const SolidCells::Index& index) {
     const Vec3 middle = samples.cells.middle_of(index);
     double here = 0;
     voxels.visit_near(middle, kDiagonal / 2 + 1e-9,
                       [&](double one) { here = std::max(here, one); });
     double near = 0;
-    voxels.visit_near(middle, kReach * kPitch + kDiagonal / 2,
+    voxels.visit_near(middle, kReach * kThicknessPitch + kDiagonal / 2,
                       [&](double one) { near = std::max(near, one); });
     ASSERT_GE(field.radii[cell], here - 1.5 * kDiagonal);
     ASSERT_LE(field.radii[cell], (near + cover) * (1 + kDoubt) + kDiagonal / 2);

@@ -15,14 +15,14 @@
 namespace lamina::slicer {
 namespace {
 
-const std::vector<Vec2> kSquare = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+const std::vector<Vec2> kSquareLoop = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 const std::vector<Vec2> kHole = {{2, 2}, {2, 4}, {5, 4}, {5, 2}};
 
 std::vector<Layer> squares(double first, double step, int count) {
   std::vector<Layer> layers;
   for (int i = 0; i < count; ++i) {
     const double bottom = first + i * step;
-    layers.push_back(layer_at(bottom, bottom + step, {kSquare}));
+    layers.push_back(layer_at(bottom, bottom + step, {kSquareLoop}));
   }
   return layers;
 }
@@ -85,11 +85,11 @@ TEST(PairLayers, AnEmptyLayerNeedsNoPartner) {
 
 // A square; a square with a hole in a alone; a square that is longer in b.
 std::vector<LayerDifference> three_layers() {
-  const std::vector<Layer> a = {layer_at(0, 0.5, {kSquare}),
-                                layer_at(0.5, 1, {kSquare, kHole}),
-                                layer_at(1, 1.5, {kSquare})};
+  const std::vector<Layer> a = {layer_at(0, 0.5, {kSquareLoop}),
+                                layer_at(0.5, 1, {kSquareLoop, kHole}),
+                                layer_at(1, 1.5, {kSquareLoop})};
   const std::vector<Layer> b = {
-      layer_at(0, 0.5, {kSquare}), layer_at(0.5, 1, {kSquare}),
+      layer_at(0, 0.5, {kSquareLoop}), layer_at(0.5, 1, {kSquareLoop}),
       layer_at(1, 1.5, {{{0, 0}, {10, 0}, {10, 10.25}, {0, 10.25}}})};
   return compare(pair_layers(a, b, 0, "a", "b"), Vec2(0));
 }
@@ -142,8 +142,8 @@ TEST(SumUp, AddsUpVolumes) {
 TEST(Compare, SliversCountForAreasOnly) {
   const std::vector<Vec2> sliver = {{4, 4}, {6, 4}, {6, 4 + 2e-6}};
   const LayerDifference difference =
-      compare_layers(layer_at(0, 1, {kSquare}).contours,
-                     layer_at(0, 1, {kSquare, sliver}).contours);
+      compare_layers(layer_at(0, 1, {kSquareLoop}).contours,
+                     layer_at(0, 1, {kSquareLoop, sliver}).contours);
   EXPECT_EQ(difference.distance.distance, 0);
   EXPECT_EQ(difference.loops_b.regions, 2U);
 }

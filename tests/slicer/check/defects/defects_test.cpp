@@ -10,9 +10,9 @@
 namespace lamina::slicer {
 namespace {
 
-using Loops = std::vector<WrittenLoop>;
+using WrittenLoops = std::vector<WrittenLoop>;
 
-Loops closed(const std::vector<std::vector<Vec2>>& loops) {
+WrittenLoops closed(const std::vector<std::vector<Vec2>>& loops) {
   plane::Contours contours;
   for (const auto& loop : loops) {
     contours.points.insert(contours.points.end(), loop.begin(), loop.end());
@@ -30,7 +30,7 @@ std::vector<Vec2> hole(double x, double y, double size) {
 }
 
 // Kinds of all defects, each once.
-std::vector<DefectKind> kinds(const Loops& loops) {
+std::vector<DefectKind> kinds(const WrittenLoops& loops) {
   std::vector<DefectKind> kinds;
   for (const Defect& defect : find_defects(loops)) {
     if (kinds.empty() || kinds.back() != defect.kind) {
@@ -61,17 +61,17 @@ TEST(FindDefects, PartsMayTouchInAPoint) {
 }
 
 TEST(FindDefects, ALoopWithoutItsClosingVertexIsOpen) {
-  Loops open = closed({square(0, 0, 1)});
+  WrittenLoops open = closed({square(0, 0, 1)});
   open[0].points.pop_back();
   EXPECT_EQ(kinds(open), Kinds{DefectKind::kOpen});
 }
 
 TEST(FindDefects, ALoopWithoutVerticesIsOpen) {
-  EXPECT_EQ(kinds(Loops(1)), Kinds{DefectKind::kOpen});
+  EXPECT_EQ(kinds(WrittenLoops(1)), Kinds{DefectKind::kOpen});
 }
 
 TEST(FindDefects, ALoopThatCountsGapsHasAGap) {
-  Loops gap = closed({square(0, 0, 1)});
+  WrittenLoops gap = closed({square(0, 0, 1)});
   gap[0].gaps = 1;
   EXPECT_EQ(kinds(gap), Kinds{DefectKind::kGap});
 }

@@ -22,8 +22,6 @@ namespace {
 
 using support::Design;
 
-constexpr double kPi = std::numbers::pi;
-
 struct Sliced {
   Design design;
   SliceReport report;
@@ -125,7 +123,8 @@ TEST(ThinFeatures, ATubeIsOneWall) {
       "translate([0, 0, -1]) cylinder(r = 2.9, h = 4, $fn = 100); }");
   ASSERT_EQ(sliced.report.features.size(), 1U);
   EXPECT_EQ(sliced.report.features[0].kind, ThinKind::kWall);
-  EXPECT_NEAR(sliced.report.features[0].width, 0.1 * std::cos(kPi / 100), 1e-9);
+  EXPECT_NEAR(sliced.report.features[0].width,
+              0.1 * std::cos(std::numbers::pi / 100), 1e-9);
   EXPECT_NEAR(sliced.report.features[0].high.x, 2.95, 0.01);
   EXPECT_NEAR(sliced.report.features[0].low.y, -2.95, 0.01);
 }
@@ -137,7 +136,7 @@ TEST(ThinFeatures, AConesTipIsThinFromWhereItIs) {
   const ThinFeature& feature = sliced.report.features[0];
   // At height z the inscribed circle has the diameter (4 - z) / 2 · cos(π/64).
   const auto width_at = [](std::uint32_t layer) {
-    return (4 - 0.05 * (layer - 0.5)) / 2 * std::cos(kPi / 64);
+    return (4 - 0.05 * (layer - 0.5)) / 2 * std::cos(std::numbers::pi / 64);
   };
   EXPECT_LT(width_at(feature.first_layer), 0.2);
   EXPECT_GT(width_at(feature.first_layer - 1), 0.2);
@@ -155,7 +154,7 @@ TEST(ThinFeatures, ProngsAreFeaturesOneByOne) {
   for (std::size_t i = 0; i < 6; ++i) {
     const ThinFeature& feature = sliced.report.features[i];
     EXPECT_EQ(feature.kind, ThinKind::kWall);
-    EXPECT_NEAR(feature.width, 0.18 * std::cos(kPi / 12), 1e-9);
+    EXPECT_NEAR(feature.width, 0.18 * std::cos(std::numbers::pi / 12), 1e-9);
     EXPECT_NEAR(glm::length(feature.place), 3, 1e-7);
     EXPECT_NEAR(feature.bottom, 1, 1e-9);
     EXPECT_NEAR(feature.top, 2.5, 1e-9);
@@ -197,7 +196,7 @@ TEST(ThinFeatures, AWireOfManySidesIsOneWall) {
   ASSERT_EQ(sliced.report.features.size(), 1U);
   const ThinFeature& wire = sliced.report.features[0];
   EXPECT_EQ(wire.kind, ThinKind::kWall);
-  EXPECT_NEAR(wire.width, 0.28 * std::cos(kPi / 1500), 1e-6);
+  EXPECT_NEAR(wire.width, 0.28 * std::cos(std::numbers::pi / 1500), 1e-6);
   EXPECT_NEAR(wire.height, 1, 1e-9);
   EXPECT_NEAR(wire.place.x, 0, 1e-6);
   EXPECT_NEAR(wire.place.y, 0, 1e-6);

@@ -21,8 +21,6 @@ namespace {
 using plane::Contours;
 using support::add_loop;
 
-constexpr double kPi = std::numbers::pi;
-
 using Points = std::vector<Vec2>;
 
 Points rectangle(Vec2 low, Vec2 high) {
@@ -33,7 +31,7 @@ Points rectangle(Vec2 low, Vec2 high) {
 Points polygon(Vec2 centre, double radius, int corners, double phase = 0.1) {
   Points points;
   for (int i = 0; i < corners; ++i) {
-    const double angle = phase + 2 * kPi * i / corners;
+    const double angle = phase + 2 * std::numbers::pi * i / corners;
     points.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
   }
   return points;
@@ -57,8 +55,8 @@ Contours mapped(Contours contours, const Map& map) {
 }
 
 Contours turned(const Contours& contours, double angle_deg) {
-  const double c = std::cos(angle_deg * kPi / 180);
-  const double s = std::sin(angle_deg * kPi / 180);
+  const double c = std::cos(angle_deg * std::numbers::pi / 180);
+  const double s = std::sin(angle_deg * std::numbers::pi / 180);
   return mapped(contours, [=](Vec2 p) {
     return Vec2(c * p.x - s * p.y, s * p.x + c * p.y);
   });
@@ -136,10 +134,10 @@ TEST(ThinFinder, AGapBetweenPlatesIsAsWideAsItIs) {
 
 TEST(ThinFinder, ATubeIsAsThickAsItsWall) {
   // Facets of inside and outside stand parallel, or corner to facet.
-  for (const double phase : {0.1, 0.1 + kPi / 40}) {
+  for (const double phase : {0.1, 0.1 + std::numbers::pi / 40}) {
     const auto tube = contours_of(
         {polygon({1, 2}, 5, 40), reversed(polygon({1, 2}, 4.9, 40, phase))});
-    const double flat = std::cos(kPi / 40);
+    const double flat = std::cos(std::numbers::pi / 40);
     const double wall = phase == 0.1 ? 0.1 * flat : 5 * flat - 4.9;
     const auto stretches = find(tube, 0.2);
     EXPECT_NEAR(least_width(stretches, ThinKind::kWall), wall, 1e-9);
@@ -152,7 +150,7 @@ TEST(ThinFinder, ATubeIsAsThickAsItsWall) {
 
 TEST(ThinFinder, AProngIsAsThickAsItsInscribedCircle) {
   for (const int corners : {3, 4, 5, 6, 7, 8, 30, 31, 200}) {
-    const double width = 0.2 * std::cos(kPi / corners);
+    const double width = 0.2 * std::cos(std::numbers::pi / corners);
     const auto prong = contours_of({polygon({7, -3}, 0.1, corners)});
     const auto stretches = find(prong, 0.2);
     ASSERT_FALSE(stretches.empty()) << corners;
@@ -174,7 +172,7 @@ TEST(ThinFinder, AHoleIsAGap) {
     ASSERT_FALSE(stretches.empty());
     EXPECT_EQ(count(stretches, ThinKind::kWall), 0U);
     EXPECT_NEAR(least_width(stretches, ThinKind::kGap),
-                0.1 * std::cos(kPi / corners), 1e-9);
+                0.1 * std::cos(std::numbers::pi / corners), 1e-9);
   }
 }
 
@@ -210,7 +208,7 @@ TEST(ThinFinder, ABluntBladeIsAsThinAsTheDiskAtItsEdge) {
 
 TEST(ThinFinder, ASharpCornerIsThinOnlyBelowTheFacingAngle) {
   const auto wedge = [](double angle_deg) {
-    const double half = angle_deg * kPi / 360;
+    const double half = angle_deg * std::numbers::pi / 360;
     return contours_of(
         {{{0, 0}, {10, -10 * std::tan(half)}, {10, 10 * std::tan(half)}}});
   };
