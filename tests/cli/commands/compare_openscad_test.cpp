@@ -12,10 +12,12 @@
 #include "tests/cli/lamina.h"
 #include "tests/support/openscad_cache.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
+using support::has;
 using support::ProcessResult;
 using support::TemporaryFolder;
 
@@ -23,10 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDesign =
     "r = 2; difference() { sphere(r, $fn = 24); cylinder(r = 1, h = 9); }";
-
-bool contains(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
 
 TEST(CompareWithOpenscad, RendersTheDesignWithItsDefinitions) {
   const TemporaryFolder folder;
@@ -47,7 +45,7 @@ TEST(CompareWithOpenscad, RendersTheDesignWithItsDefinitions) {
     words.insert(words.end(), options.begin(), options.end());
     const ProcessResult result = support::run_process(words, folder.path());
     EXPECT_EQ(result.status, 0) << result.output << result.errors;
-    EXPECT_TRUE(contains(result.output, "OpenSCAD version 2021.01"));
+    EXPECT_TRUE(has(result.output, "OpenSCAD version 2021.01"));
     EXPECT_EQ(scratch.entry_count(), 0U) << "left behind";
   }
 }
@@ -83,7 +81,7 @@ TEST(CompareWithOpenscad, ALimitEndsIt) {
       run(folder, {"compare", "a.scad", "--against", "openscad", "--time-limit",
                    "0.2", "--heights", "0"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.errors, "openscad took more than 0.2 s"))
+  EXPECT_TRUE(has(result.errors, "openscad took more than 0.2 s"))
       << result.errors;
 }
 
@@ -102,7 +100,7 @@ TEST(CompareWithOpenscad, ReadsTheDesignAsTheInstalledVersionDoes) {
        "compare", "a.scad", "--against", "openscad"},
       folder.path());
   EXPECT_EQ(result.status, 0) << result.output << result.errors;
-  EXPECT_TRUE(contains(result.output, "2025.07.18")) << result.output;
+  EXPECT_TRUE(has(result.output, "2025.07.18")) << result.output;
 }
 
 // Changes with what the examples share.
@@ -130,8 +128,7 @@ TEST_P(Example, IsWhatOpenscadMakesOfItToATenThousandth) {
       run(folder, {"compare", design.string(), mesh.output.string(),
                    "--tolerance", "0.0001"});
   EXPECT_EQ(result.status, 0) << result.output << result.errors;
-  EXPECT_TRUE(
-      contains(result.output, "as many regions and holes in every layer"))
+  EXPECT_TRUE(has(result.output, "as many regions and holes in every layer"))
       << result.output;
 }
 

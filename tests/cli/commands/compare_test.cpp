@@ -12,10 +12,12 @@
 
 #include "tests/cli/lamina.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text.h"
 
 namespace lamina::cli {
 namespace {
 
+using support::has;
 using support::ProcessResult;
 using support::TemporaryFolder;
 
@@ -52,17 +54,13 @@ class Compare : public ::testing::Test {
   const std::string design = folder.write("ring.scad", kRing);
 };
 
-bool contains(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
-
 TEST_F(Compare, AFileEqualsItselfToTheLastDigit) {
   slice("ring.slc");
   const ProcessResult result =
       compare({"ring.slc", "ring.slc", "--tolerance", "0"});
   EXPECT_EQ(result.status, 0) << result.output << result.errors;
-  EXPECT_TRUE(contains(result.output, "distance  none"));
-  EXPECT_TRUE(contains(result.output, "equal     within 0 mm in all 60 layers"))
+  EXPECT_TRUE(has(result.output, "distance  none"));
+  EXPECT_TRUE(has(result.output, "equal     within 0 mm in all 60 layers"))
       << result.output;
 }
 
@@ -114,13 +112,13 @@ TEST_F(Compare, AnotherDesignDiffersByAsMuchAsItIsLarger) {
   const ProcessResult result = compare(
       {"ring.slc", "ring.scad", "-D", "size=8.25", "--report", "r.json"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.output, "different in 60 of 60 layers"))
+  EXPECT_TRUE(has(result.output, "different in 60 of 60 layers"))
       << result.output;
-  const nlohmann::json json = report();
-  EXPECT_EQ(json["equal"], false);
-  EXPECT_EQ(json["layers_outside"], 60);
+  const nlohmann::json shown = report();
+  EXPECT_EQ(shown["equal"], false);
+  EXPECT_EQ(shown["layers_outside"], 60);
   // Of a ring alone; the chord's middle is cos(3°) as far out.
-  const auto& first = json["layers"][0];
+  const auto& first = shown["layers"][0];
   EXPECT_NEAR(first["distance"], 0.25, 0.002);
   // (r + 0.25)² - r² of polygons of 60 corners, outside less inside.
   const double share = 60 * std::sin(2 * std::numbers::pi / 60) / 2;
@@ -134,7 +132,7 @@ TEST_F(Compare, AFileThatEndsEarlyDiffers) {
                                   "translate([0, 0, 3]) cube([1, 1, 0.2]);");
   const ProcessResult result = compare({"ring.slc", "taller.scad", "--all"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.output, "missing")) << result.output;
+  EXPECT_TRUE(has(result.output, "missing")) << result.output;
 }
 
 TEST_F(Compare, TellsTheShiftThatWouldMakeThemEqual) {
@@ -143,7 +141,7 @@ TEST_F(Compare, TellsTheShiftThatWouldMakeThemEqual) {
                "translate([3, -2, 1.5]) union() {" + std::string(kRing) + "}");
   const ProcessResult result = compare({"ring.slc", "moved.scad"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.output, "--align")) << result.output;
+  EXPECT_TRUE(has(result.output, "--align")) << result.output;
   const ProcessResult aligned =
       compare({"ring.slc", "moved.scad", "--align", "--report", "r.json"});
   EXPECT_EQ(aligned.status, 0) << aligned.output;
@@ -157,7 +155,7 @@ TEST_F(Compare, RefusesFilesOfOtherHeights) {
   const ProcessResult result = compare({"ring.slc", "thick.slc"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.output, "");
-  EXPECT_TRUE(contains(result.errors, "layers of different heights"))
+  EXPECT_TRUE(has(result.errors, "layers of different heights"))
       << result.errors;
   // The design has all heights.
   EXPECT_EQ(compare({"thick.slc", "ring.scad"}).status, 0);
@@ -177,7 +175,7 @@ TEST_F(Compare, AFaceInTheSectionsPlaneIsNoDifference) {
   ASSERT_EQ(run(folder, {"step.scad", "-q", "-o", "step.slc"}).status, 0);
   const ProcessResult result = compare({"step.slc", "step.scad", "--all"});
   EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_TRUE(contains(result.output, "lie in a horizontal face"));
+  EXPECT_TRUE(has(result.output, "lie in a horizontal face"));
 }
 
 TEST_F(Compare, MeshesAreCut) {
@@ -198,7 +196,7 @@ TEST_F(Compare, MeshesAreCut) {
   const ProcessResult result =
       compare({"a.stl", "a.scad", "--tolerance", "1e-9"});
   EXPECT_EQ(result.status, 0) << result.output << result.errors;
-  EXPECT_TRUE(contains(result.output, "in all 80 layers")) << result.output;
+  EXPECT_TRUE(has(result.output, "in all 80 layers")) << result.output;
   EXPECT_EQ(compare({"a.stl", "a.scad", "--axis", "x", "--scale", "2"}).status,
             0);
 }
@@ -219,7 +217,7 @@ TEST_F(Compare, DrawsTheWorstLayer) {
   const ProcessResult beyond = compare({"ring.slc", "ring.scad", "-q", "--png",
                                         "e.png", "--layer-number", "62"});
   EXPECT_EQ(beyond.status, 1);
-  EXPECT_TRUE(contains(beyond.errors, "there is no layer 62 to draw"));
+  EXPECT_TRUE(has(beyond.errors, "there is no layer 62 to draw"));
 }
 
 TEST_F(Compare, BrokenFilesAreNamed) {
@@ -234,7 +232,7 @@ TEST_F(Compare, BrokenFilesAreNamed) {
       const ProcessResult result = compare(words);
       EXPECT_EQ(result.status, 1) << bad;
       EXPECT_EQ(result.output, "") << bad;
-      EXPECT_TRUE(contains(result.errors, "error: ")) << bad;
+      EXPECT_TRUE(has(result.errors, "error: ")) << bad;
     }
   }
 }
@@ -247,7 +245,7 @@ TEST_F(Compare, HelpNamesEveryKindOfFileThatTheErrorNames) {
       error.find(" (") + 2, error.find(')') - error.find(" (") - 2));
   std::size_t count = 0;
   for (std::string extension; named >> extension; ++count) {
-    EXPECT_TRUE(contains(help, extension)) << extension;
+    EXPECT_TRUE(has(help, extension)) << extension;
   }
   EXPECT_EQ(count, 24U) << error;
 }
@@ -277,8 +275,7 @@ TEST_F(Compare, AMissingOpenscadIsAClearError) {
                             "ring.scad", "--against", "openscad"},
                            folder.path());
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.errors, "openscad is not installed"))
-      << result.errors;
+  EXPECT_TRUE(has(result.errors, "openscad is not installed")) << result.errors;
 }
 
 // The middle of the box is at x = y = 0, where readers put the panel's middle;
@@ -307,7 +304,7 @@ TEST(Images, AreReadBackToATenthOfAPixel) {
     EXPECT_EQ(result.status, 0) << one.output << result.output << result.errors;
     const ProcessResult found = run(folder, {"inspect", one.output});
     EXPECT_EQ(found.status, 0) << found.output;
-    EXPECT_TRUE(contains(found.output, "80 images of")) << found.output;
+    EXPECT_TRUE(has(found.output, "80 images of")) << found.output;
   }
 }
 

@@ -334,8 +334,8 @@ TEST_F(Ledgers, ALineForEachPieceTellsWhatCameOfIt) {
   std::istringstream lines(read_file(folder_.file("new/l")));
   std::map<std::string, nlohmann::json> by_name;
   for (std::string line; std::getline(lines, line);) {
-    const auto json = nlohmann::json::parse(line);
-    by_name[json.value("name", "")] = json;
+    const auto entry = nlohmann::json::parse(line);
+    by_name[entry.value("name", "")] = entry;
   }
   const nlohmann::json& done = by_name.at("p1");
   EXPECT_EQ(done["status"], "done");
@@ -443,9 +443,9 @@ TEST_F(Ledgers, TornAtAnyByteKeepTheirWholeLines) {
   std::set<std::string> asked;  // of all pieces
   std::istringstream lines(whole);
   for (std::string line; std::getline(lines, line);) {
-    const auto json = nlohmann::json::parse(line);
-    if (json.contains("key")) {
-      asked.insert(json["key"].get<std::string>().substr(0, 32));
+    const auto entry = nlohmann::json::parse(line);
+    if (entry.contains("key")) {
+      asked.insert(entry["key"].get<std::string>().substr(0, 32));
     }
   }
   fs::current_path(folder_.path());  // where the files of the ledger lie

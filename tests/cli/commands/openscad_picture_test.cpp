@@ -17,7 +17,7 @@ namespace {
 using support::TemporaryFolder;
 
 // Looks different from everywhere.
-constexpr const char* kDesign = R"(
+constexpr const char* kLopsidedDesign = R"(
 linear_extrude(4)
   polygon([[0, 0], [20, 0], [20, 5], [6, 5], [6, 9], [14, 9], [14, 14],
            [6, 14], [6, 24], [0, 24]]);
@@ -58,7 +58,7 @@ class OpenScadPicture : public testing::TestWithParam<std::string> {};
 
 TEST_P(OpenScadPicture, ShowsTheSame) {
   const TemporaryFolder folder;
-  folder.write("a.scad", kDesign);
+  folder.write("a.scad", kLopsidedDesign);
   std::vector<std::string> options;
   for (std::size_t begin = 0; begin < GetParam().size();) {
     const std::size_t end =

@@ -24,7 +24,7 @@ using support::read_file;
 using support::TemporaryFolder;
 
 // A T that lies flat with a thin foot: standing on its head nothing hangs.
-constexpr const char* kTable =
+constexpr const char* kTee =
     "translate([-10, -10, 10]) cube([20, 20, 2]); translate([-1, -1, 0]) "
     "cube([2, 2, 11]);";
 
@@ -42,7 +42,7 @@ json listed(const TemporaryFolder& folder, const std::string& design,
 
 TEST(Orient, ATableStandsOnItsHead) {
   const TemporaryFolder folder;
-  const json found = listed(folder, kTable);
+  const json found = listed(folder, kTee);
   EXPECT_EQ(found["judged"], 60 - (60 - 39) % 8) << found["judged"];
   const json& best = found["listed"][0];
   EXPECT_EQ(best["orient"], json({0.0, 0.0, -1.0}));
@@ -124,8 +124,8 @@ TEST(Orient, CountsContactsOnWhatVisibleLeavesCutOut) {
 
 TEST(Orient, NamesTheVisibleContactsOnlyWhereThereAreVisibleLeaves) {
   const TemporaryFolder folder;
-  folder.write("a.scad", kTable);
-  folder.write("b.scad", std::string("$visible = true; ") + kTable);
+  folder.write("a.scad", kTee);
+  folder.write("b.scad", std::string("$visible = true; ") + kTee);
   const auto output = [&](const std::string& design) {
     return run(folder,
                {"orient", design, "--layer", "0.2", "--directions", "20"})
@@ -137,13 +137,13 @@ TEST(Orient, NamesTheVisibleContactsOnlyWhereThereAreVisibleLeaves) {
 
 TEST(Orient, TheSameListComesFromAnyNumberOfThreads) {
   const TemporaryFolder folder;
-  const json found = listed(folder, kTable);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(listed(folder, kTable), found);
+  const json found = listed(folder, kTee);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(listed(folder, kTee), found);
 }
 
 TEST(Orient, APageHasAPictureOfEach) {
   const TemporaryFolder folder;
-  folder.write("a.scad", kTable);
+  folder.write("a.scad", kTee);
   const auto result = run(folder, {"orient", "a.scad", "-o", "o.html",
                                    "--layer", "0.2", "--directions", "20"});
   EXPECT_EQ(result.status, 0) << result.errors;
@@ -242,8 +242,8 @@ TEST(Orient, BestIsTheFirstOfTheListAndItsTextRepeatsTheRun) {
 // drawn, turned. A text has none.
 TEST(Orient, EachPieceOfABatchHasItsOwnBest) {
   const TemporaryFolder folder;
-  folder.write("a.scad", std::string("lean = 0; rotate([lean, 0, 0]) { ") +
-                             kTable + " }");
+  folder.write("a.scad",
+               std::string("lean = 0; rotate([lean, 0, 0]) { ") + kTee + " }");
   folder.write("t.csv", "name,lean\nflat,0\nfront,90\nhead,180\n");
   const auto result =
       run(folder, {"batch", "a.scad", "--table", "t.csv", "-o", "{name}.slc",
@@ -260,7 +260,7 @@ TEST(Orient, EachPieceOfABatchHasItsOwnBest) {
 
 TEST(Orient, PiecesOfPlatesLieAsTheyShould) {
   const TemporaryFolder folder;
-  folder.write("a.scad", kTable);
+  folder.write("a.scad", kTee);
   const auto result = run(
       folder, {"plate", "a.scad", "--plate", "60,60", "-o", "p.slc", "--layer",
                "0.2", "--orient", "best", "--fail-on", "overhangs"});
@@ -275,7 +275,7 @@ constexpr const char* kSlow = "cylinder(r = 300, h = 900, $fn = 3000);";
 TEST(Orient, AnInterruptListsWhatWasJudged) {
   if (!support::has_terminals()) GTEST_SKIP() << "needs terminals";
   const TemporaryFolder folder;
-  folder.write("a.scad", kTable);
+  folder.write("a.scad", kTee);
   const auto result = support::run_on_terminal(
       command({"orient", "a.scad", "-o", "o.json", "--directions", "10000"}),
       folder.path(), "directions");

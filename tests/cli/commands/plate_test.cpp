@@ -31,8 +31,8 @@ struct PlateLayer {
 };
 
 // A file of .layers.json.
-std::vector<PlateLayer> layers_of(const TemporaryFolder& folder,
-                                  const std::string& name) {
+std::vector<PlateLayer> plate_layers_of(const TemporaryFolder& folder,
+                                        const std::string& name) {
   const json file = json::parse(read_file(folder.file(name)));
   std::vector<PlateLayer> layers;
   for (const json& layer : file["layers"]) {
@@ -119,8 +119,8 @@ TEST_F(PlateCommand, TwoCopiesHaveTwiceTheArea) {
       plate({"cube.scad", "--copies", "2", "-o", "two.layers.json"});
   ASSERT_EQ(result.status, 0) << result.errors;
   EXPECT_EQ(result.errors, "two.layers.json: 2 pieces, 20 layers\n");
-  const auto one = layers_of(folder_, "one.layers.json");
-  const auto two = layers_of(folder_, "two.layers.json");
+  const auto one = plate_layers_of(folder_, "one.layers.json");
+  const auto two = plate_layers_of(folder_, "two.layers.json");
   ASSERT_EQ(one.size(), 20U);
   ASSERT_EQ(two.size(), 20U);
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -151,7 +151,7 @@ TEST_F(PlateCommand, LayersAreThoseOfThePieces) {
                             name + ".layers.json"})
                   .status,
               0);
-    const auto layers = layers_of(folder_, name + ".layers.json");
+    const auto layers = plate_layers_of(folder_, name + ".layers.json");
     for (std::size_t i = 0; i < layers.size(); ++i) {
       expected[i] += static_cast<double>(quantity) * area_of(layers[i]);
     }
@@ -164,7 +164,7 @@ TEST_F(PlateCommand, LayersAreThoseOfThePieces) {
     is_turned = is_turned || piece["turn_deg"] != 0;
   }
   EXPECT_TRUE(is_turned);
-  const auto layers = layers_of(folder_, "p.layers.json");
+  const auto layers = plate_layers_of(folder_, "p.layers.json");
   ASSERT_EQ(layers.size(), 20U);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     EXPECT_NEAR(area_of(layers[i]), expected[i], 1e-6) << i;
@@ -205,7 +205,7 @@ TEST_F(PlateCommand, ATableSetsVariablesAndQuantities) {
   for (const json& piece : map[0]["pieces"]) names.push_back(piece["name"]);
   std::ranges::sort(names);
   EXPECT_EQ(names, (std::vector<std::string>{"Ada", "Ada", "Ben", "row 3"}));
-  const auto layers = layers_of(folder_, "p.layers.json");
+  const auto layers = plate_layers_of(folder_, "p.layers.json");
   const double cone = 7 * std::sin(2 * M_PI / 7) / 2;
   // In the first section, 0.25 mm up.
   const double radius = 4 - 2 * 0.25 / 3;
@@ -374,7 +374,7 @@ TEST_F(PlateCommand, ThePageListsWhatLiesWhere) {
 
 TEST_F(PlateCommand, TheMapSaysWhereALoopLies) {
   const json map = map_of({"ell.scad", "-o", "p.layers.json", "--copies", "2"});
-  const auto layers = layers_of(folder_, "p.layers.json");
+  const auto layers = plate_layers_of(folder_, "p.layers.json");
   ASSERT_EQ(layers[0].loops.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
     const json& piece = map[0]["pieces"][i];
@@ -539,7 +539,7 @@ class PlateLabels : public PlateCommand {
                   "--supports=medium,raft", "--label", "-o", "p.layers.json"});
     const auto result = run(folder_, words);
     EXPECT_EQ(result.status, 0) << result.errors;
-    return layers_of(folder_, "p.layers.json");
+    return plate_layers_of(folder_, "p.layers.json");
   }
 
   // What a text is by itself.
@@ -550,7 +550,7 @@ class PlateLabels : public PlateCommand {
                             "text.layers.json"})
                   .status,
               0);
-    return layers_of(folder_, "text.layers.json").front().loops;
+    return plate_layers_of(folder_, "text.layers.json").front().loops;
   }
 
   static double area_of_loops(const std::vector<Loop>& loops) {

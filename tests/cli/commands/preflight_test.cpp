@@ -162,19 +162,20 @@ TEST(Preflight, KnowsTheSizeOfARing) {
   }
 }
 
-constexpr const char* kDumbbell =
+constexpr const char* kFineDumbbell =
     "for (x = [-8, 8]) translate([x, 0, 0]) sphere(3, $fn = 96);\nrotate([0, "
     "90, 0]) cylinder(r = 1, h = 16, center = true, $fn = 96);";
 
 TEST(Preflight, NamesWhatMetalReachesThroughAThinnerPlace) {
-  const json one = preflight(kDumbbell, {"--gate", "-11,0,0"}).report;
+  const json one = preflight(kFineDumbbell, {"--gate", "-11,0,0"}).report;
   ASSERT_EQ(one["unfed"].size(), 1U);
   EXPECT_NEAR(one["unfed"][0]["place"][0].get<double>(), 8, 0.1);
   EXPECT_NEAR(one["unfed"][0]["thickness_mm"].get<double>(), 6, 0.05);
   EXPECT_NEAR(one["unfed"][0]["neck_mm"].get<double>(), 2, 0.1);
   EXPECT_EQ(one["unfed"][0]["lines"], "a.scad:2:20");
   const json both =
-      preflight(kDumbbell, {"--gate", "-11,0,0", "--gate", "11,0,0,6"}).report;
+      preflight(kFineDumbbell, {"--gate", "-11,0,0", "--gate", "11,0,0,6"})
+          .report;
   EXPECT_TRUE(both["unfed"].empty());
 }
 
@@ -222,7 +223,7 @@ Painted count_painted(const Picture& picture) {
 
 // The far ball and half of the rod freeze by themselves.
 TEST(Preflight, PaintsWhatMetalDoesNotReach) {
-  const auto pictures = pictures_of(kDumbbell, {"--gate", "-11,0,0"});
+  const auto pictures = pictures_of(kFineDumbbell, {"--gate", "-11,0,0"});
   ASSERT_EQ(pictures.size(), 3U);
   for (const std::size_t view : {0U, 2U}) {  // from the front and from above
     const Painted count = count_painted(pictures[view]);

@@ -61,9 +61,9 @@ TEST(Scan, IsSlicedAndInspectedAsADesign) {
   const auto sliced = run(folder, {"a.PLY"});
   ASSERT_EQ(sliced.status, 0) << sliced.errors;
   EXPECT_EQ(sliced.errors.find("warning"), std::string::npos) << sliced.errors;
-  const nlohmann::json json = inspected(folder, "a.PLY");
-  ASSERT_EQ(json.at("meshes").size(), 1U);
-  const nlohmann::json& mesh = json.at("meshes")[0];
+  const nlohmann::json found = inspected(folder, "a.PLY");
+  ASSERT_EQ(found.at("meshes").size(), 1U);
+  const nlohmann::json& mesh = found.at("meshes")[0];
   EXPECT_EQ(mesh.at("vertices"), 200 * kAcross);
   EXPECT_EQ(mesh.at("triangles"), 2 * 200 * kAcross);
   EXPECT_EQ(mesh.at("components"), 1);

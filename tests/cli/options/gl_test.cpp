@@ -14,14 +14,14 @@ namespace {
 using support::read_file;
 using support::TemporaryFolder;
 
-constexpr const char* kDesign =
+constexpr const char* kCutBall =
     "difference() { sphere(5, $fn = 40); rotate([20, 30, 0]) cylinder(r = 2, "
     "h = 20, center = true, $fn = 30); translate([0, 0, 4]) cube(9); }";
 
-// Slices kDesign by the paper's method and returns the report.
+// Slices kCutBall by the paper's method and returns the report.
 nlohmann::json slice(const TemporaryFolder& folder, const std::string& output,
                      const std::vector<std::string>& options) {
-  folder.write("design.scad", kDesign);
+  folder.write("design.scad", kCutBall);
   std::vector<std::string> arguments = {
       "design.scad", "-o",  output,     "--contour",     "paper",
       "--layer",     "0.1", "--report", output + ".json"};
@@ -98,7 +98,7 @@ TEST(Gl, SaysWhichPackageIsMissing) {
 
 TEST(Gl, DrawsPicturesToo) {
   const TemporaryFolder folder;
-  folder.write("a.scad", kDesign);
+  folder.write("a.scad", kCutBall);
   const auto result = run(folder, {"view", "a.scad", "-o", "a.png", "--contour",
                                    "paper", "--sampler", "gl"});
   EXPECT_EQ(result.status, 0) << result.errors;

@@ -16,7 +16,7 @@ namespace {
 using support::ProcessResult;
 using support::TemporaryFolder;
 
-constexpr auto kDesign =
+constexpr auto kAnnotatedDesign =
     "initials = \"AB\";\n"
     "inner = 17;       // [10:20]\n"
     "style = \"round\";  // [round, square]\n"
@@ -25,7 +25,7 @@ constexpr auto kDesign =
 
 class Strict : public ::testing::Test {
  protected:
-  Strict() { folder_.write("d.scad", kDesign); }
+  Strict() { folder_.write("d.scad", kAnnotatedDesign); }
 
   // Whether d.slc was written, too.
   void expect(std::vector<std::string> words, int status,

@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(AllKinds, RootNaming, testing::ValuesIn(kNamings),
 
 // --- What a command line names ----------------------------------------------
 
-struct Words {
+struct CommandLine {
   const char* name;
   // {}: a path that leads out of the root, where a good file stands.
   std::vector<std::string> words;
@@ -335,7 +335,7 @@ TEST_F(Root, ANameWithANulLeadsNowhere) {
   }
 }
 
-class RootWords : public Root, public testing::WithParamInterface<Words> {
+class RootWords : public Root, public testing::WithParamInterface<CommandLine> {
  protected:
   support::ProcessResult run_words(const std::string& file) const {
     std::vector<std::string> words;
@@ -379,7 +379,7 @@ TEST_P(RootWords, LeadNowhereElse) {
   }
 }
 
-const std::vector<Words> kWords = {
+const std::vector<CommandLine> kCommandLines = {
     {"design", {"{}", "-o", "o.slc"}, "scad"},
     {"mesh", {"{}", "-o", "o.slc"}, "stl"},
     {"output", {"d.scad", "-o", "{}"}, "slc", true},
@@ -422,7 +422,8 @@ const std::vector<Words> kWords = {
      "png",
      true},
 };
-INSTANTIATE_TEST_SUITE_P(AllOptions, RootWords, testing::ValuesIn(kWords),
+INSTANTIATE_TEST_SUITE_P(AllOptions, RootWords,
+                         testing::ValuesIn(kCommandLines),
                          [](const auto& named) {
                            return std::string(named.param.name);
                          });
