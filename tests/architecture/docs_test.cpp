@@ -10,11 +10,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/architecture/source_tree.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = LAMINA_SOURCE_DIR;
+using lamina::testing::kRoot;
 
 struct Name {
   std::string page;

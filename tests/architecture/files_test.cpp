@@ -11,11 +11,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/architecture/source_tree.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = LAMINA_SOURCE_DIR;
+using lamina::testing::kRoot;
 
 // What opens a file, looks at one, changes one, or asks whether there is one.
 const std::regex kTouch(

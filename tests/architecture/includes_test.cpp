@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/architecture/source_tree.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,7 +24,7 @@ struct Include {
   bool is_quoted = false;
 };
 
-const fs::path kRoot = LAMINA_SOURCE_DIR;
+using lamina::testing::kRoot;
 
 bool starts_with(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0;

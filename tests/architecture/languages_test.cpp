@@ -13,11 +13,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/architecture/source_tree.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = LAMINA_SOURCE_DIR;
+using lamina::testing::kRoot;
 
 // What only gives a variable its first value.
 const std::regex kInitialiser(R"([^=!]= Language::k2021[;,)])");
