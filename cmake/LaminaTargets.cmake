@@ -22,8 +22,8 @@ target_compile_options(lamina_options INTERFACE
   # Contraction would let one formula give two values in two places; the
   # samplers rely on equal bits for equal expressions.
   -ffp-contract=off
-  # Only headers must not: it takes the .cpp files of a room for such.
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
+  # It takes the files of a room that is compiled as one for headers.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wno-subobject-linkage>
   # In what Python loads, no other library may put functions in the place of ours, so
   # that calls stay as direct as in a program. (A module may stand in for others.)
   $<$<AND:$<BOOL:$<TARGET_PROPERTY:POSITION_INDEPENDENT_CODE>>,$<NOT:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,MODULE_LIBRARY>>>:-fno-semantic-interposition>
