@@ -22,7 +22,9 @@ double squared_distance(Vec2 point, Vec2 from, Vec2 to) {
 
 }  // namespace
 
-EdgeTree::EdgeTree(const Contours& contours) {
+void EdgeTree::fill(const Contours& contours) {
+  own_points_.clear();
+  own_ends_.clear();
   own_points_.reserve(contours.points.size() + contours.loop_count());
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const std::span<const Vec2> loop = contours.loop(i);

@@ -53,7 +53,7 @@ inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
 class EdgeTree {
  public:
   EdgeTree() = default;
-  explicit EdgeTree(const Contours& contours);
+  explicit EdgeTree(const Contours& contours) { fill(contours); }
   EdgeTree(EdgeTree&&) = default;
   EdgeTree& operator=(EdgeTree&&) = default;
 
@@ -76,6 +76,9 @@ class EdgeTree {
   void fill(std::span<const Vec2> points,
             std::span<const std::uint32_t> vertices,
             std::span<const std::uint32_t> ends);
+
+  // Of contours, which it copies.
+  void fill(const Contours& contours);
 
   // Calls take(bundle, bundle), a bundle with itself too, for all pairs that
   // may hold an edge and a foreign vertex within `reach` [mm] in x and in y, or

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -37,6 +36,13 @@ constexpr int kFirstSegments = 16;
 // Crossings of two layers, at most: they take a minute.
 constexpr std::uint64_t kMostCrossings = 200'000'000;
 
+struct Label {
+  std::uint32_t region = kOutside;
+  bool is_solid = false;
+
+  bool operator==(const Label&) const = default;
+};
+
 // Chains of both layers on the ray.
 struct Sample {
   const Vec2* at = nullptr;  // the segment from at[0] to at[1]
@@ -45,6 +51,7 @@ struct Sample {
   std::uint32_t loop = 0;
   std::uint8_t layer = 0;  // 0: below, 1: above
   bool is_solid_above = false;
+  Label above;  // once it is on the ray
 
   void set(const Vec2* place) {
     at = place;
@@ -60,13 +67,6 @@ struct Sample {
   double y_at(double x) const {
     return x == at[1].x ? at[1].y : at->y + (x - at->x) * slope;
   }
-};
-
-struct Label {
-  std::uint32_t region = kOutside;
-  bool is_solid = false;
-
-  bool operator==(const Label&) const = default;
 };
 
 // The gap above a sample, up to the next one.
@@ -211,10 +211,13 @@ Outlook look_along(const Sample& lower, const Sample& upper, double x,
 // between them, so its middle is asked.
 class OverhangSearch {
  public:
+  //
+  // tree  any; it will hold the edges of `below` where places ask for them
   OverhangSearch(const plane::Contours& below, const plane::Contours& above,
                  const std::vector<Ledge>& ledges, double reach,
-                 std::vector<Overhang>& found)
+                 plane::EdgeTree& tree, std::vector<Overhang>& found)
       : below_(below),
+        tree_(tree),
         reach_(reach),
         box_(box_of(above)),
         pitch_(std::max(kPitch, least_pitch(ledges))),
@@ -457,9 +460,10 @@ class OverhangSearch {
   // known  the distance from some of that
   double ask(Vec2 place, double known) {
     if (known <= reach_) return known;
-    if (!tree_) tree_.emplace(below_);
-    double distance = std::min(known, tree_->distance(guess_, place));
-    if (distance > reach_) tree_->lower(place, reach_, distance, guess_);
+    if (!is_tree_filled_) tree_.fill(below_);
+    is_tree_filled_ = true;
+    double distance = std::min(known, tree_.distance(guess_, place));
+    if (distance > reach_) tree_.lower(place, reach_, distance, guess_);
     if (distance <= reach_) return distance;
     overhang_.box.add(place);
     if (distance > overhang_.distance) {
@@ -479,8 +483,9 @@ class OverhangSearch {
   static constexpr double kStride = 0.2;
 
   const plane::Contours& below_;
-  std::optional<plane::EdgeTree> tree_;  // of it, once a place asks for more
-                                         // than the chains beside its ledge
+  // Filled once a place asks for more than the chains beside its ledge.
+  plane::EdgeTree& tree_;
+  bool is_tree_filled_ = false;
   const double reach_;
   const Box2 box_;  // of the layer above
   const double pitch_;
@@ -531,6 +536,8 @@ struct OverlaySweep::State {
   void insert(std::uint32_t sample, double x);
   void swap_with_upper(std::uint32_t lower);
   void settle(double x);
+  bool is_ascending(const std::vector<std::uint32_t>& samples) const;
+  void sort_by_place(std::vector<std::uint32_t>& samples);
   bool renew_gap(std::uint32_t lower, double x);
   void watch(std::uint32_t lower, double x);
   void close(std::uint32_t lower, double x);
@@ -540,14 +547,11 @@ struct OverlaySweep::State {
                       const plane::Contours& above, LayerOverlay& overlay);
 
   bool is_below(const Sample& sample, const Sample& other, double x) const;
-  Label above(const Sample& sample) const { return side(sample, true); }
-  Label side(const Sample& sample, bool is_above) const {
-    const bool is_solid = sample.is_solid_above == is_above;
-    const ChainedLayer& layer = layers_[sample.layer];
-    return {layer.is_outer(sample.loop) == is_solid
-                ? sample.loop
-                : around_[sample.layer][sample.loop],
-            is_solid};
+  Label label_above(const Sample& sample) const {
+    const bool is_inside =
+        layers_[sample.layer].is_outer(sample.loop) == sample.is_solid_above;
+    return {is_inside ? sample.loop : around_[sample.layer][sample.loop],
+            sample.is_solid_above};
   }
   Label label_below(std::uint32_t sample, std::uint8_t layer) const;
   void connect(std::uint32_t lower, std::uint32_t upper) {
@@ -582,6 +586,7 @@ struct OverlaySweep::State {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places_;
   std::vector<std::uint32_t> begun_;
   std::vector<Ledge> ledges_;
+  plane::EdgeTree tree_;  // of the layer below, in the search for overhangs
   // The region below that each region above was last found to overlap, the
   // outside last: nearly all questions are answered here.
   std::array<std::vector<std::uint32_t>, 2> last_linked_;  // voids, solids
@@ -726,7 +731,7 @@ bool OverlaySweep::State::is_below(const Sample& sample, const Sample& other,
 }
 
 void OverlaySweep::State::insert(std::uint32_t sample, double x) {
-  const Sample& begun = samples_[sample];
+  Sample& begun = samples_[sample];
   const std::uint32_t lower = order_.find_last(
       [&](std::uint32_t other) { return is_below(samples_[other], begun, x); },
       rim_);
@@ -742,8 +747,9 @@ void OverlaySweep::State::insert(std::uint32_t sample, double x) {
         label.is_solid != layers_[begun.layer].is_outer(begun.loop);
     around = fits ? label.region : kOutside;
   }
-  mark(sample);
+  begun.above = label_above(begun);
   mark(lower);
+  mark(sample);
 }
 
 // The region of a layer below the sample.
@@ -753,7 +759,7 @@ Label OverlaySweep::State::label_below(std::uint32_t sample,
     sample = lowers_[sample];
     if (sample == rim_) return {};
   } while (samples_[sample].layer != layer);
-  return above(samples_[sample]);
+  return samples_[sample].above;
 }
 
 void OverlaySweep::State::swap_with_upper(std::uint32_t lower) {
@@ -772,16 +778,35 @@ void OverlaySweep::State::swap_with_upper(std::uint32_t lower) {
 
 // Renews the gaps that have changed, and those above them whose labels do.
 void OverlaySweep::State::settle(double x) {
-  places_.clear();
-  for (const std::uint32_t sample : dirty_) {
-    if (!order_.holds(sample)) continue;
-    places_.emplace_back(order_.place_of(sample), sample);
-  }
-  std::ranges::sort(places_);
-  for (auto [place, sample] : places_) {
+  std::erase_if(dirty_, [&](auto sample) { return !order_.holds(sample); });
+  if (!is_ascending(dirty_)) sort_by_place(dirty_);
+  for (std::uint32_t sample : dirty_) {
     while (sample != rim_ && renew_gap(sample, x)) sample = uppers_[sample];
   }
   dirty_.clear();
+}
+
+// Whether each is the one before or its neighbour above: so it is after one
+// event, and then no place in the order is asked.
+bool OverlaySweep::State::is_ascending(
+    const std::vector<std::uint32_t>& samples) const {
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i] != samples[i - 1] && samples[i] != uppers_[samples[i - 1]]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void OverlaySweep::State::sort_by_place(std::vector<std::uint32_t>& samples) {
+  places_.clear();
+  for (const std::uint32_t sample : samples) {
+    places_.emplace_back(order_.place_of(sample), sample);
+  }
+  std::ranges::sort(places_);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i] = places_[i].second;
+  }
 }
 
 // Whether the labels are others than before.
@@ -790,7 +815,7 @@ bool OverlaySweep::State::renew_gap(std::uint32_t lower, double x) {
   const Sample& sample = samples_[lower];
   Gap& gap = gaps_[lower];
   std::array<Label, 2> labels;
-  labels[sample.layer] = above(sample);
+  labels[sample.layer] = sample.above;
   const std::uint8_t other = sample.layer == 0 ? 1 : 0;
   if (lowers_[lower] != rim_) {
     labels[other] = gaps_[lowers_[lower]].labels[other];
@@ -887,7 +912,8 @@ void OverlaySweep::State::find_overhangs(const plane::Contours& below,
            !overlaps_solid[ledge.region];
   });
   if (ledges_.empty()) return;
-  OverhangSearch search(below, above, ledges_, reach_, overlay.overhangs);
+  OverhangSearch search(below, above, ledges_, reach_, tree_,
+                        overlay.overhangs);
   for (const Ledge& ledge : ledges_) search.search(ledge);
 }
 
