@@ -318,7 +318,7 @@ TEST(Simplify, HundredsOfRingsInRingsKeepTheirPlaces) {
 // Out in a thousand rounds a micrometre apart, and back between them: what one
 // round keeps makes the next keep it, too.
 TEST(Simplify, ASpiralOfThousandsOfWallsStaysOpen) {
-  constexpr int kPoints = 20000;
+  constexpr int kPoints = 10000;
   std::vector<Vec2> spiral;
   const auto at = [](double i) {
     return (1 + i / 10000) * Vec2(std::cos(i * std::numbers::pi / 5),
