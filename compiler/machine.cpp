@@ -36,15 +36,6 @@ slicer::Material find_metal(const std::string& name, const FileAccess& access) {
                               metal.title));
 }
 
-// Prices of litres and kilograms are those of the resin, of grams and ounces
-// those of the metal, as they are sold; of one material alone, all are its.
-void add_price(const slicer::Price& price, Machine& machine) {
-  const bool is_for_metal =
-      machine.metal &&
-      (!machine.material || price.unit == "g" || price.unit == "oz");
-  (is_for_metal ? machine.metal : machine.material)->price = price;
-}
-
 // The options with which a part that is too large would fit; empty where none
 // help.
 std::string options_that_fit(const slicer::Printer& printer,
@@ -73,6 +64,12 @@ std::string options_that_fit(const slicer::Printer& printer,
 }
 
 }  // namespace
+
+bool is_price_of_metal(const slicer::Price& price, bool has_material,
+                       bool has_metal) {
+  return has_metal &&
+         (!has_material || price.unit == "g" || price.unit == "oz");
+}
 
 std::string too_large_text(const slicer::Printer& printer,
                            const GeometryRequest& geometry, Vec3 size) {
@@ -114,7 +111,11 @@ Machine choose_machine(const OutputRequest& request, const FileAccess& access) {
     }
     machine.metal = find_metal(request.metal, access);
   }
-  for (const slicer::Price& price : request.prices) add_price(price, machine);
+  for (const slicer::Price& price : request.prices) {
+    const bool is_metals = is_price_of_metal(
+        price, machine.material.has_value(), machine.metal.has_value());
+    (is_metals ? machine.metal : machine.material)->price = price;
+  }
   return machine;
 }
 

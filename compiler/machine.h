@@ -16,6 +16,12 @@ using slicer::Machine;
 // opened, and where a material is not of the kind that is asked for.
 Machine choose_machine(const OutputRequest& request, const FileAccess& access);
 
+// Whether a price is that of the metal. Prices of litres and kilograms are
+// those of the material, of grams and ounces those of the metal, as they are
+// sold; of one of them alone, all are its.
+bool is_price_of_metal(const slicer::Price& price, bool has_material,
+                       bool has_metal);
+
 // Says that a part is too large for the printer, and with which options, such
 // as
 // "--axis x --turn 90", or on which printers it would fit.

@@ -13,6 +13,7 @@
 
 #include "base/similar.h"
 #include "base/text.h"
+#include "compiler/machine.h"
 #include "compiler/validate.h"
 #include "serve/shop/detail/json_number.h"
 
@@ -160,13 +161,13 @@ void ask_for_walls(double thickness, compiler::Request& request) {
   if (request.hollow) request.hollow->wall = thickness;
 }
 
-// The material that a price is of, as the compiler decides it.
+// The material that a price is of.
 const std::string& priced(const compiler::OutputRequest& output,
                           const slicer::Price& price) {
-  const bool is_for_metal =
-      !output.metal.empty() &&
-      (output.material.empty() || price.unit == "g" || price.unit == "oz");
-  return is_for_metal ? output.metal : output.material;
+  return compiler::is_price_of_metal(price, !output.material.empty(),
+                                     !output.metal.empty())
+             ? output.metal
+             : output.material;
 }
 
 void choose_materials(const Order& order, const compiler::OutputRequest& base,
