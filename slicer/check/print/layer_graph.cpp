@@ -154,7 +154,9 @@ double gap_between(double bottom_below, double top_below, double bottom,
   return std::abs(gap) > slack ? gap : 0;
 }
 
-LayerGraph::LayerGraph(const PrintRules& rules) : rules_(rules) {
+LayerGraph::LayerGraph(const PrintRules& rules)
+    : rules_(rules),
+      least_width_(std::max(kContactWidth, std::sqrt(rules.least_area) / 2)) {
   Component outside;
   outside.is_anchored = true;
   components_.push_back(outside);
@@ -331,7 +333,9 @@ void LayerGraph::extend(const Layer& layer) {
     finding.last_layer = layers_;
     finding.top = layer.top;
     finding.area = std::max(finding.area, areas_[i]);
-    finding.width = std::max(finding.width, width_of(layer, i));
+    if (finding.width < least_width_) {
+      finding.width = std::max(finding.width, width_of(layer, i));
+    }
     finding.volume += areas_[i] * thickness;
     Box2 box;
     box.add(layer.contours.loop(i));
@@ -394,8 +398,7 @@ void LayerGraph::end_island(std::uint32_t component) {
 
 // Whether no layer of it hardens a pixel, or leaves one open.
 bool LayerGraph::is_below_pixel(const Finding& finding) const {
-  return finding.area < rules_.least_area ||
-         finding.width < std::sqrt(rules_.least_area) / 2;
+  return finding.area < rules_.least_area || finding.width < least_width_;
 }
 
 std::uint32_t LayerGraph::join_voids(std::uint32_t a, std::uint32_t b) {

@@ -78,8 +78,9 @@ struct Finding {
   // overhang that of all layers together [mm²].
   double area = 0;
   double volume = 0;  // of loose parts, cups and traps [mm³]
-  // The greatest of a layer, as twice the area over the perimeter: that of a
-  // long strip, half the side of a square. Overhangs have none [mm].
+  // Of a layer, as twice the area over the perimeter: that of a long strip,
+  // half the side of a square. The greatest, or one that is enough to matter.
+  // Overhangs have none [mm].
   double width = 0;
   double distance = 0;  // of an overhang, to what holds it [mm]
   // Of an overhang: the share of its region that lies on what is below, the
@@ -173,6 +174,7 @@ class LayerGraph {
   void join_overhangs(std::uint32_t a, std::uint32_t b);
 
   const PrintRules rules_;
+  const double least_width_;  // of what matters: of half a pixel [mm]
   OverlaySweep sweep_;
   LayerOverlay own_overlay_;
   std::uint32_t layers_ = 0;
