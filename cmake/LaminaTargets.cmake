@@ -7,8 +7,8 @@ endif()
 include(LaminaHardening)
 
 # With CMAKE_UNITY_BUILD a room is compiled as one file, which reads its headers
-# once: half the time of a build from nothing. So names in unnamed namespaces are
-# unique in a room. ccache keeps single files.
+# once: a build from nothing takes two thirds of its time. So names in unnamed
+# namespaces are unique in a room. ccache keeps single files.
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)
 if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
   set(CMAKE_UNITY_BUILD OFF)
@@ -22,7 +22,7 @@ target_compile_options(lamina_options INTERFACE
   # Contraction would let one formula give two values in two places; the
   # samplers rely on equal bits for equal expressions.
   -ffp-contract=off
-  # It takes the files of a room that is compiled as one for headers.
+  # g++ takes the files of a room that is compiled as one for headers.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wno-subobject-linkage>
   # In what Python loads, no other library may put functions in the place of ours, so
   # that calls stay as direct as in a program. (A module may stand in for others.)
