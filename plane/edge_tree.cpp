@@ -22,7 +22,7 @@ double squared_distance(Vec2 point, Vec2 from, Vec2 to) {
 
 }  // namespace
 
-void EdgeTree::fill(const Contours& contours) {
+void EdgeTree::fill(const Contours& contours, Bundles bundles) {
   own_points_.clear();
   own_ends_.clear();
   own_points_.reserve(contours.points.size() + contours.loop_count());
@@ -33,9 +33,14 @@ void EdgeTree::fill(const Contours& contours) {
     own_points_.push_back(loop.front());
     own_ends_.push_back(static_cast<std::uint32_t>(own_points_.size()));
   }
-  own_vertices_.resize(own_points_.size());
-  std::iota(own_vertices_.begin(), own_vertices_.end(), 0U);
-  fill(own_points_, own_vertices_, own_ends_);
+  // Vertex k is point k, whatever they are of.
+  for (std::size_t k = own_vertices_.size(); k < own_points_.size(); ++k) {
+    own_vertices_.push_back(static_cast<std::uint32_t>(k));
+  }
+  points_ = own_points_;
+  vertices_ = std::span(own_vertices_).first(own_points_.size());
+  ends_ = own_ends_;
+  fill(bundles);
 }
 
 void EdgeTree::Node::add(const Node& other) {
@@ -75,11 +80,21 @@ void EdgeTree::fill(std::span<const Vec2> points,
   points_ = points;
   vertices_ = vertices;
   ends_ = ends;
+  fill(Bundles::kShort);
+}
+
+void EdgeTree::fill(Bundles bundles) {
   bundles_.clear();
   nodes_.clear();
-  bundle_of_.resize(vertices.size());
+  bundle_of_.resize(vertices_.size());
   sort_loops();
-  for (const auto& [place, loop] : order_) add_bundles(loop);
+  for (const auto& [place, loop] : order_) {
+    if (bundles == Bundles::kShort) {
+      add_bundles(loop);
+    } else {
+      add_runs(loop);
+    }
+  }
   build_levels();
 }
 
@@ -107,12 +122,52 @@ void EdgeTree::sort_loops() {
 void EdgeTree::add_bundles(std::uint32_t loop) {
   const std::uint32_t last = ends_[loop] - 1;  // the copy of the first vertex
   for (std::uint32_t k = loop_begin(loop); k < last; k += kEdgesPerBundle) {
-    const std::uint32_t end = std::min(k + kEdgesPerBundle, last);
-    std::fill(bundle_of_.begin() + k, bundle_of_.begin() + end,
-              static_cast<std::uint32_t>(bundles_.size()));
-    bundles_.push_back({k, end, loop});
-    nodes_.push_back(measure(bundles_.back()));
+    const Bundle bundle = {k, std::min(k + kEdgesPerBundle, last), loop};
+    nodes_.push_back(measure(bundle));
+    add_bundle(bundle);
   }
+}
+
+// Upright edges go along with either direction.
+void EdgeTree::add_runs(std::uint32_t loop) {
+  const std::uint32_t last = ends_[loop] - 1;
+  for (std::uint32_t k = loop_begin(loop); k < last;) {
+    const Vec2& first = from(k);
+    std::uint32_t end = k;
+    double low = first.y;
+    double high = first.y;
+    const std::uint32_t farthest = std::min(k + kEdgesPerRun, last);
+    const auto extend = [&](bool is_on) {
+      if (!is_on) return false;
+      const double y = to(end++).y;
+      low = std::min(low, y);
+      high = std::max(high, y);
+      return end < farthest;
+    };
+    const bool leads_right = to(k).x >= first.x;
+    if (leads_right) {
+      while (extend(to(end).x >= from(end).x)) {
+      }
+    } else {
+      while (extend(to(end).x <= from(end).x)) {
+      }
+    }
+    Node node;
+    node.low = Lanes{std::min(first.x, from(end).x), low};
+    node.high = Lanes{std::max(first.x, from(end).x), high};
+    node.least_step = both_lanes(-1e300);
+    node.greatest_step = both_lanes(1e300);
+    node.loop = loop;
+    nodes_.push_back(node);
+    add_bundle({k, end, loop});
+    k = end;
+  }
+}
+
+void EdgeTree::add_bundle(const Bundle& bundle) {
+  std::fill(bundle_of_.begin() + bundle.begin, bundle_of_.begin() + bundle.end,
+            static_cast<std::uint32_t>(bundles_.size()));
+  bundles_.push_back(bundle);
 }
 
 EdgeTree::Node EdgeTree::measure(const Bundle& bundle) const {
@@ -204,15 +259,37 @@ void EdgeTree::lower(Vec2 point, double enough, double& best,
       }
     }
     if (!(square < best * best)) continue;
-    const Bundle& bundle = bundles_[index];
-    for (std::size_t k = bundle.begin; k < bundle.end; ++k) {
-      const double here = squared_distance(point, from(k), to(k));
-      if (here > kRoundedUp * best * best || std::sqrt(here) >= best) continue;
-      best = std::sqrt(here);
-      guess = k;
-    }
+    lower(bundles_[index], point, best, guess);
     if (best <= enough) return;
   }
+}
+
+void EdgeTree::lower(const Bundle& bundle, Vec2 point, double& best,
+                     std::size_t& guess) const {
+  const auto look = [&](std::size_t k) {
+    const double here = squared_distance(point, from(k), to(k));
+    if (here > kRoundedUp * best * best || std::sqrt(here) >= best) return;
+    best = std::sqrt(here);
+    guess = k;
+  };
+  if (bundle.end - bundle.begin <= kEdgesPerBundle) {
+    for (std::size_t k = bundle.begin; k < bundle.end; ++k) look(k);
+    return;
+  }
+  // A run: from the edge above or below the point to both sides.
+  const bool leads_right = from(bundle.begin).x <= from(bundle.end).x;
+  std::size_t middle = bundle.begin;
+  for (std::size_t count = bundle.end - bundle.begin; count > 1;) {
+    const std::size_t half = count / 2;
+    if ((from(middle + half).x <= point.x) == leads_right) middle += half;
+    count -= half;
+  }
+  const auto is_near = [&](std::size_t vertex) {
+    return std::abs(from(vertex).x - point.x) < best;
+  };
+  look(middle);
+  for (std::size_t k = middle + 1; k < bundle.end && is_near(k); ++k) look(k);
+  for (std::size_t k = middle; k > bundle.begin && is_near(k); --k) look(k - 1);
 }
 
 int EdgeTree::winding_number(Vec2 point) const {

@@ -52,6 +52,11 @@ inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
 
 class EdgeTree {
  public:
+  // Three edges each, or up to 64 that all lead to the right, or all to the
+  // left: these are filled in half the time, and a search in one takes the
+  // edges above and below the place. For few questions about distances.
+  enum class Bundles { kShort, kRuns };
+
   EdgeTree() = default;
   explicit EdgeTree(const Contours& contours) { fill(contours); }
   EdgeTree(EdgeTree&&) = default;
@@ -78,7 +83,7 @@ class EdgeTree {
             std::span<const std::uint32_t> ends);
 
   // Of contours, which it copies.
-  void fill(const Contours& contours);
+  void fill(const Contours& contours, Bundles bundles = Bundles::kShort);
 
   // Calls take(bundle, bundle), a bundle with itself too, for all pairs that
   // may hold an edge and a foreign vertex within `reach` [mm] in x and in y, or
@@ -141,6 +146,7 @@ class EdgeTree {
 
  private:
   static constexpr std::uint32_t kEdgesPerBundle = 3;
+  static constexpr std::uint32_t kEdgesPerRun = 64;
   static constexpr std::uint32_t kNone = 0xffffffff;
   // Pairs of nodes to look at for each bundle in a crowd; 14 are usual.
   static constexpr std::size_t kCrowdLooks = 32;
@@ -173,8 +179,11 @@ class EdgeTree {
     }
   };
 
+  void fill(Bundles bundles);
   void sort_loops();
   void add_bundles(std::uint32_t loop);
+  void add_runs(std::uint32_t loop);
+  void add_bundle(const Bundle& bundle);
   Node measure(const Bundle& bundle) const;
   void build_levels();
 
@@ -196,6 +205,8 @@ class EdgeTree {
   bool follow_apart(const Node& a, const Node& b, double reach) const;
   void follow(Vec2 point, double enough, std::size_t& edge,
               double& its_distance) const;
+  void lower(const Bundle& bundle, Vec2 point, double& best,
+             std::size_t& guess) const;
   int crossings_of(std::size_t level, std::uint32_t i, Vec2 point) const;
 
   // The state of a visit.

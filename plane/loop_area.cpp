@@ -31,6 +31,16 @@ double perimeter(std::span<const Vec2> loop) {
   return length;
 }
 
+Box2 box_of(std::span<const Vec2> points) {
+  Lanes low = both_lanes(Box2().low.x);
+  Lanes high = both_lanes(Box2().high.x);
+  for (const Vec2& point : points) {
+    low = least(low, lanes_of(point));
+    high = greatest(high, lanes_of(point));
+  }
+  return {point_of(low), point_of(high)};
+}
+
 double greatest_coordinate(std::span<const Vec2> points) {
   Reach reach;
   for (const Vec2& point : points) reach.add(point);

@@ -61,6 +61,9 @@ double sliver_area(std::span<const Vec2> loop);
 
 double perimeter(std::span<const Vec2> loop);
 
+// The box around points.
+Box2 box_of(std::span<const Vec2> points);
+
 // As Reach has it.
 double greatest_coordinate(std::span<const Vec2> points);
 

@@ -52,10 +52,4 @@ int winding_number(std::span<const Vec2> loop, Vec2 point) {
   return sum;
 }
 
-double distance_to_segment(Vec2 point, Vec2 from, Vec2 to) {
-  const Vec2 away =
-      point - (from + nearest_share(point, from, to) * (to - from));
-  return std::sqrt(dot(away, away));
-}
-
 }  // namespace lamina

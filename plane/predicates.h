@@ -8,6 +8,7 @@
 // down to two products.
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "base/vec.h"
@@ -60,6 +61,11 @@ inline double nearest_share(Vec2 point, Vec2 from, Vec2 to) {
   return std::clamp(dot(point - from, along) / squared_length, 0.0, 1.0);
 }
 
-double distance_to_segment(Vec2 point, Vec2 from, Vec2 to);
+// The distance of a point from a segment.
+inline double distance_to_segment(Vec2 point, Vec2 from, Vec2 to) {
+  const Vec2 away =
+      point - (from + nearest_share(point, from, to) * (to - from));
+  return std::sqrt(dot(away, away));
+}
 
 }  // namespace lamina

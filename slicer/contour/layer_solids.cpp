@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "plane/loop_area.h"
 #include "plane/predicates.h"
 
 namespace lamina::slicer {
@@ -15,7 +16,7 @@ LayerSolids::LayerSolids(std::span<const Layer> layers) : layers_(layers) {
     if (i == 0 || contours != layers[i - 1].contours) {
       Solid& solid = solids_.emplace_back();
       solid.edges = plane::EdgeTree(contours);
-      solid.box.add(std::span<const Vec2>(contours.points));
+      solid.box = box_of(contours.points);
     }
     solid_of_.push_back(solids_.size() - 1);
   }

@@ -27,12 +27,6 @@ constexpr double kLeastPiece = 1e-4;
 // So much around a support is cut out of the part [mm].
 constexpr double kAround = 0.01;
 
-Box2 box_of(std::span<const Vec2> points) {
-  Box2 box;
-  box.add(points);
-  return box;
-}
-
 bool touch(Box2 a, const Box2& b, double margin = 0) {
   a.intersect({b.low - margin, b.high + margin});
   return !a.is_empty();

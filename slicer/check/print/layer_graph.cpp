@@ -46,9 +46,7 @@ constexpr double kSameHeight = 0.001;
 // A place inside a region: the middle of its longest part on the upright line
 // through its box's middle.
 Vec2 inner_place(const plane::Contours& region) {
-  Box2 box;
-  box.add(std::span<const Vec2>(region.points));
-  const double x = box.center().x;
+  const double x = box_of(region.points).center().x;
   std::vector<double> crossings;
   for (std::size_t i = 0; i < region.loop_count(); ++i) {
     const auto loop = region.loop(i);
@@ -337,8 +335,7 @@ void LayerGraph::extend(const Layer& layer) {
       finding.width = std::max(finding.width, width_of(layer, i));
     }
     finding.volume += areas_[i] * thickness;
-    Box2 box;
-    box.add(layer.contours.loop(i));
+    const Box2 box = box_of(layer.contours.loop(i));
     finding.box.add(
         Box3{Vec3(box.low, layer.bottom), Vec3(box.high, layer.top)});
   }

@@ -12,8 +12,7 @@
 // half of them, and the order is all that the sweep keeps. Between two
 // neighbours on the ray there is one region of each layer. Where the layer
 // below is void and the one above is solid the gap is a **ledge**, and a ledge
-// that is wider than `reach` is searched for places that are farther than that
-// from all that holds it: an **overhang**.
+// that is wider than `reach` is searched for overhangs (overhang_search.h).
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +22,7 @@
 #include "plane/chain_builder.h"
 #include "plane/chains.h"
 #include "plane/contours.h"
+#include "slicer/check/print/overhang_search.h"
 
 namespace lamina::slicer {
 
@@ -42,15 +42,6 @@ struct Overlap {
 
   bool operator==(const Overlap&) const = default;
   auto operator<=>(const Overlap&) const = default;
-};
-
-// A part of a solid region that is too far from what holds it.
-struct Overhang {
-  std::uint32_t region = 0;  // above
-  Box2 box;
-  double area = 0;       // as sampled [mm²]
-  double distance = 0;   // the greatest to what holds it [mm]
-  Vec2 place = Vec2(0);  // where that is
 };
 
 struct LayerOverlay {

@@ -124,8 +124,7 @@ Vec2 pole_of(const plane::Contours& region) {
     const bool is_inside = tree.winding_number(middle) != 0;
     return Square{middle, half, is_inside ? distance : -distance};
   };
-  Box2 box;
-  box.add(std::span<const Vec2>(region.points));
+  const Box2 box = box_of(region.points);
   const double size = std::max(box.size().x, box.size().y);
   const bool is_slender = slicer::is_slender(region, size);
   std::size_t left = kMostSquares;
