@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -36,8 +37,11 @@ constexpr double kLeastRise = 0.7;
 constexpr double kClearance = 1;
 // It comes out of the piece within so many radii of its ball.
 constexpr double kMostInside = 2.5;
-// The way is looked at in steps of this share of its radius.
+// The way is looked at in steps of this share of its radius, and once for so
+// many of them where nothing is near.
 constexpr double kStep = 0.5;
+constexpr double kStepsAhead = 6;
+constexpr double kDoubt = 0.2;
 
 double cone_volume(double length, double d1, double d2) {
   return std::numbers::pi / 12 * length * (d1 * d1 + d1 * d2 + d2 * d2);
@@ -76,6 +80,16 @@ struct Way {
   bool is_seen = false;
 };
 
+std::vector<SurfacePoint> seen_points(
+    std::span<const SurfacePoint> points,
+    const std::function<bool(std::uint32_t)>& is_visible) {
+  std::vector<SurfacePoint> seen;
+  for (const SurfacePoint& point : points) {
+    if (is_visible(point.instance)) seen.push_back(point);
+  }
+  return seen;
+}
+
 struct Choice {
   double cost = kInfinity;
   Vec3 root = Vec3(0);
@@ -92,7 +106,8 @@ class SpruePlanner {
         balls_(balls),
         field_(field),
         sizes_(sizes),
-        is_visible_(is_visible) {}
+        seen_(seen_points(samples.points, is_visible)),
+        seen_balls_(seen_) {}
 
   std::optional<SpruePlan> plan() {
     const std::vector<Pool> pools = pools_to_feed();
@@ -199,35 +214,55 @@ class SpruePlanner {
     return samples_.cells.find(samples_.cells.index_at(place)).has_value();
   }
 
-  // The straight way from a ball to the root, if it gets out at once and stays
-  // away from the piece then.
+  // The straight way from a ball to the root, if it gets out at once, where it
+  // may, and stays away from the piece then.
   std::optional<Way> way_out(const Ball& end, Vec3 root) const {
     const double length = glm::distance(end.centre, root);
     const Vec3 along = (root - end.centre) / length;
-    const double step = kStep * std::max(end.radius, samples_.pitch);
     double out = end.radius;
     while (is_inside(end.centre + out * along)) {
       out += samples_.pitch;
       if (out > kMostInside * end.radius + samples_.pitch) return std::nullopt;
     }
+    const Vec3 exit = end.centre + out * along;
+    const double ball = kGateShare * end.radius;
+    Way way;
+    way.is_seen = seen_balls_.nearest(exit, ball).has_value();
+    if (way.is_seen && !allows_seen_) return std::nullopt;
+    if (!is_clear(end, root, out)) return std::nullopt;
+    way.gate = exit + (1 - kGateDepth) * ball * along;
+    if (is_met_ahead(way.gate, ball, along)) return std::nullopt;
+    if (const auto nearest = balls_.nearest(exit, kInfinity)) {
+      way.instance = samples_.points[nearest->point].instance;
+    }
+    return way;
+  }
+
+  // Whether a rod from a ball to the root stays away from the piece that it
+  // leaves where it is `out` long.
+  bool is_clear(const Ball& end, Vec3 root, double out) const {
+    const double length = glm::distance(end.centre, root);
+    const Vec3 along = (root - end.centre) / length;
+    const double step = kStep * std::max(end.radius, samples_.pitch);
     const double slack = 2 * samples_.pitch;
+    double empty = 0;  // no point is nearer to where the rod is
     for (double s = out + step; s < length; s += step) {
+      const Vec3 place = end.centre + s * along;
+      empty -= step;
       const double radius =
           glm::mix(kGateShare * end.radius, root_diameter_ / 2, s / length);
       const double wanted =
           std::min(kLeastRise * (s - out) - slack, radius + kClearance);
       if (wanted <= 0) continue;
-      const Vec3 place = end.centre + s * along;
-      if (is_inside(place) || balls_.nearest(place, wanted)) {
-        return std::nullopt;
-      }
+      if (is_inside(place)) return false;
+      if (wanted <= empty) continue;
+      const auto nearest =
+          balls_.nearest(place, wanted + kStepsAhead * step, kDoubt);
+      empty = nearest ? nearest->distance / (1 + kDoubt)
+                      : wanted + kStepsAhead * step;
+      if (empty < wanted && balls_.nearest(place, wanted)) return false;
     }
-    const double ball = kGateShare * end.radius;
-    const Vec3 gate = end.centre + (out + (1 - kGateDepth) * ball) * along;
-    if (is_met_ahead(gate, ball, along)) return std::nullopt;
-    Way way = way_at(end.centre + out * along, end.radius);
-    way.gate = gate;
-    return way;
+    return true;
   }
 
   // Whether a ball meets the piece with its half that looks away from it.
@@ -238,55 +273,51 @@ class SpruePlanner {
         });
   }
 
-  Way way_at(Vec3 gate, double radius) const {
-    Way way;
-    if (const auto nearest = balls_.nearest(gate, kInfinity)) {
-      way.instance = samples_.points[nearest->point].instance;
-    }
-    way.is_seen = std::ranges::any_of(
-        balls_.points_within(gate, kGateShare * radius),
-        [&](std::uint32_t point) {
-          return is_visible_(samples_.points[point].instance);
-        });
-    return way;
+  double volume_to(Vec3 root, const Ball& end) const {
+    return cone_volume(glm::distance(end.centre, root),
+                       2 * kGateShare * end.radius, root_diameter_);
   }
 
-  // The cheapest sprue from a target to the root.
-  std::optional<Sprue> sprue_to(const Target& target, Vec3 root,
+  // The cheapest sprue from a target to the root, if it costs less than
+  // `limit`; `cost` grows by what it costs.
+  std::optional<Sprue> sprue_to(const Target& target, Vec3 root, double limit,
                                 double& cost) const {
-    std::optional<Sprue> best;
-    double least = kInfinity;
-    for (const Ball& end : target.ends) {
-      const double length = glm::distance(end.centre, root);
-      const double diameter = 2 * kGateShare * end.radius;
-      const double own = cone_volume(length, diameter, root_diameter_);
-      if (own >= least) continue;
+    std::vector<std::pair<double, std::size_t>> by_volume;
+    for (std::size_t i = 0; i < target.ends.size(); ++i) {
+      const double volume = volume_to(root, target.ends[i]);
+      if (cost + volume < limit) by_volume.emplace_back(volume, i);
+    }
+    std::ranges::sort(by_volume);
+    for (const auto& [volume, i] : by_volume) {
+      const Ball& end = target.ends[i];
       const auto way = way_out(end, root);
-      if (!way || (way->is_seen && !allows_seen_)) continue;
-      least = own;
-      best = Sprue{.end = end.centre,
+      if (!way) continue;
+      cost += volume;
+      return Sprue{.end = end.centre,
                    .thickness = 2 * end.radius,
                    .gate = way->gate,
-                   .diameter = diameter,
+                   .diameter = 2 * kGateShare * end.radius,
                    .feeds = target.pool.volume,
                    .instance = way->instance,
                    .is_seen = way->is_seen};
     }
-    cost += least;
-    return best;
+    return std::nullopt;
   }
 
-  Choice try_root(Vec3 root, Vec3 direction, double best) const {
+  // What costs less than `limit`, if anything does.
+  Choice try_root(Vec3 root, Vec3 direction, double limit) const {
     Choice choice{.cost = 0, .root = root, .direction = direction};
     for (const Target& target : targets_) {
-      const auto sprue = sprue_to(target, root, choice.cost);
-      if (!sprue || choice.cost >= best) return {};
+      const auto sprue = sprue_to(target, root, limit, choice.cost);
+      if (!sprue) return {};
       choice.sprues.push_back(*sprue);
     }
     return choice;
   }
 
-  Choice choose_at(const Side& side) const {
+  // The cheapest towards a side, if it costs no more than the cheapest so far
+  // of all, which it lowers.
+  Choice choose_at(const Side& side, std::atomic<double>& least) const {
     const Vec3 direction = side.direction;
     const double height = side.reach + sizes_.length;
     std::vector<Vec3> middles;
@@ -302,16 +333,25 @@ class SpruePlanner {
     for (const Vec3 middle : middles) {
       const Vec3 root =
           middle + (height - glm::dot(middle, direction)) * direction;
-      Choice choice = try_root(root, direction, best.cost);
+      // Of equal ones that of the first side counts.
+      const double limit =
+          std::min(best.cost, std::nextafter(least.load(), kInfinity));
+      Choice choice = try_root(root, direction, limit);
       if (choice.cost < best.cost) best = std::move(choice);
+      double known = least;
+      while (best.cost < known &&
+             !least.compare_exchange_weak(known, best.cost)) {
+      }
     }
     return best;
   }
 
   Choice choose() const {
     std::vector<Choice> choices(sides_.size());
-    for_each_index(sides_.size(),
-                   [&](std::size_t i) { choices[i] = choose_at(sides_[i]); });
+    std::atomic<double> least = kInfinity;
+    for_each_index(sides_.size(), [&](std::size_t i) {
+      choices[i] = choose_at(sides_[i], least);
+    });
     return *std::ranges::min_element(choices, {}, &Choice::cost);
   }
 
@@ -332,7 +372,8 @@ class SpruePlanner {
   const BallFinder& balls_;
   const ThicknessField& field_;
   const SprueSizes sizes_;
-  const std::function<bool(std::uint32_t)>& is_visible_;
+  const std::vector<SurfacePoint> seen_;  // of the surface that is visible
+  const BallFinder seen_balls_;
   std::vector<Side> sides_;
   std::vector<Target> targets_;  // the thickest first, then by volume
   double root_diameter_ = 0;     // [mm]
@@ -366,9 +407,9 @@ std::string unfed_text(std::span<const Pool> pools) {
   const Pool& most = pools.front();
   return fmt::format(
       "not fed but through thinner places: {} of {:.3g} mm³ in all, the "
-      "largest {:.2f} mm thick at {:.2f}, {:.2f}, {:.2f} by way of {:.2f} mm",
-      counted(pools.size(), "place"), volume, most.thickness, most.place.x,
-      most.place.y, most.place.z, most.neck_thickness);
+      "largest {:.2f} mm thick at {} by way of {:.2f} mm",
+      counted(pools.size(), "place"), volume, most.thickness,
+      place_text(most.place), most.neck_thickness);
 }
 
 std::string size_text(const SpruePlan& plan) {
