@@ -208,6 +208,15 @@ std::string in_quotes(std::string_view content) {
   return text + '"';
 }
 
+Vec3 in_hundredths(Vec3 place) {
+  return glm::round(place * 100.0) / 100.0 + 0.0;
+}
+
+std::string place_text(Vec3 place) {
+  place = in_hundredths(place);
+  return fmt::format("{:.2f}, {:.2f}, {:.2f}", place.x, place.y, place.z);
+}
+
 std::optional<double> parse_number(std::string_view text) {
   const double_conversion::StringToDoubleConverter converter(
       double_conversion::StringToDoubleConverter::NO_FLAGS, NAN, NAN, nullptr,

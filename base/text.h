@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/vec.h"
+
 namespace lamina {
 
 // Appends a number as OpenSCAD shows values: 0.333333, 1e+6, inf, nan; never
@@ -68,6 +70,11 @@ inline std::string_view trim(std::string_view text) {
 // more  the word for several; empty: `one` with an s
 std::string counted(std::uint64_t count, std::string_view one,
                     std::string_view more = {});
+
+// A place rounded to hundredths, without -0 [mm]; and "1.50, 0.00, 21.32": how
+// messages and lists have it.
+Vec3 in_hundredths(Vec3 place);
+std::string place_text(Vec3 place);
 
 // A finite number and nothing else, such as "-1.5e3"; no value for all other
 // texts. For what people type outside of a design: options, cells of tables.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "compiler/compile.h"
 #include "compiler/source_lines.h"
 #include "slicer/casting/sprue_text.h"
@@ -31,8 +32,8 @@ void warn_of_seen(const slicer::SpruePlan& plan, Diagnostics& diagnostics) {
     if (!sprue.is_seen) continue;
     diagnostics.own_warning(
         {}, fmt::format("a sprue comes out where the piece is seen ($visible), "
-                        "at {:.2f}, {:.2f}, {:.2f}",
-                        sprue.gate.x, sprue.gate.y, sprue.gate.z));
+                        "at {}",
+                        place_text(sprue.gate)));
   }
 }
 

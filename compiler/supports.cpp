@@ -92,8 +92,7 @@ bool is_of_lines(const csg::Instance& instance,
 
 void warn_of_unheld(const slicer::SupportPlan& plan, Diagnostics& diagnostics) {
   const auto warn = [&](std::string_view what, Vec3 place) {
-    diagnostics.own_warning({}, fmt::format("{} {:.2f}, {:.2f}, {:.2f}", what,
-                                            place.x, place.y, place.z));
+    diagnostics.own_warning({}, fmt::format("{} {}", what, place_text(place)));
   };
   for (const Vec3 place : plan.unheld) {
     warn("cannot route a support to", place);

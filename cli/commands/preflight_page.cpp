@@ -376,12 +376,6 @@ std::string parameters_of(const compiler::Preflight& found) {
 
 }  // namespace
 
-std::string place_text(Vec3 place) {
-  // No "-0.00".
-  const Vec3 rounded = glm::round(place * 100.0) / 100.0 + 0.0;
-  return fmt::format("{:.2f}, {:.2f}, {:.2f}", rounded.x, rounded.y, rounded.z);
-}
-
 std::string ring_size_text(double diameter) {
   const auto rounded = [](double size, double step) {
     return std::round(size / step) * step;

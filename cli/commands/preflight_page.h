@@ -10,9 +10,6 @@ namespace lamina::cli {
 // Rows of a list on the page and on the terminal; files have all.
 inline constexpr std::size_t kMostRows = 8;
 
-// "1.50, 0.00, 21.32": as lists have a place.
-std::string place_text(Vec3 place);
-
 // "EU 54.5, US 7": what sizes an inner diameter [mm] is.
 std::string ring_size_text(double diameter);
 

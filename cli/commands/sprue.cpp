@@ -95,10 +95,8 @@ class SprueCommand : public Command {
         fmt::format("{}: {}", on_one_line(output_), slicer::size_text(plan));
     for (const slicer::Sprue& sprue : plan.sprues) {
       text += fmt::format(
-          "\n{:.2f} mm wide, on {:.2f} mm, at {:.2f}, {:.2f}, {:.2f}: feeds "
-          "{:.3g} mm³{}",
-          sprue.diameter, sprue.thickness, sprue.gate.x, sprue.gate.y,
-          sprue.gate.z, sprue.feeds,
+          "\n{:.2f} mm wide, on {:.2f} mm, at {}: feeds {:.3g} mm³{}",
+          sprue.diameter, sprue.thickness, place_text(sprue.gate), sprue.feeds,
           sprue.at.empty() ? "" : ", at " + sprue.at);
     }
     const std::string left = slicer::unfed_text(unfed);

@@ -98,10 +98,11 @@ void append_row(const Row& row, std::string& text) {
       row.count == 1 ? size_text(worst)
                      : fmt::format("greatest in {}: {}", worst.first_layer,
                                    size_text(worst));
+  const Vec3 at = in_hundredths(Vec3(worst.place, worst.section_z));
   const std::string place =
       fmt::format("{:>15} {:>9} {:>8.3f} {:>8.2f} {:>8.2f}",
                   counted(row.count, name_of(worst.kind)), layers,
-                  worst.section_z, worst.place.x, worst.place.y);
+                  worst.section_z, at.x, at.y);
   const bool is_wide = utf8_width(place) + utf8_width(size) + 2 > kWidest;
   text += is_wide ? fmt::format("{}\n      {}\n", place, size)
                   : fmt::format("{}  {}\n", place, size);

@@ -226,11 +226,10 @@ void warn(const BleedLosses& losses, std::string_view what, double depth,
           Diagnostics& diagnostics) {
   if (losses.layers == 0) return;
   diagnostics.own_warning(
-      {}, fmt::format(
-              "light bleed: {} ({}; {:.4g} mm² around {:.2f}, {:.2f}, {:.2f})",
-              fmt::format(fmt::runtime(what), depth),
-              counted(losses.layers, "layer"), losses.area, losses.place.x,
-              losses.place.y, losses.place.z));
+      {}, fmt::format("light bleed: {} ({}; {:.4g} mm² around {})",
+                      fmt::format(fmt::runtime(what), depth),
+                      counted(losses.layers, "layer"), losses.area,
+                      place_text(losses.place)));
 }
 
 }  // namespace
