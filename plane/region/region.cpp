@@ -30,6 +30,14 @@ void append_half(Iterator begin, Iterator end, Contour& contour) {
 
 }  // namespace
 
+Box2 box_of(std::span<const Contour> contours) {
+  Box2 box;
+  for (const Contour& contour : contours) {
+    box.add(lamina::box_of(std::span<const Vec2>(contour)));
+  }
+  return box;
+}
+
 double area(const Region& region) {
   double sum = 0;
   for (const Contour& contour : region.contours) sum += sliver_area(contour);

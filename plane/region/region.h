@@ -7,6 +7,7 @@
 // and its direction shows what it is.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -30,6 +31,9 @@ struct Region {
   bool is_empty() const { return contours.empty(); }
   bool operator==(const Region&) const = default;
 };
+
+// The box around contours.
+Box2 box_of(std::span<const Contour> contours);
 
 // Adds up all contours; holes count negative [mm²].
 double area(const Region& region);

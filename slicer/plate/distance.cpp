@@ -6,6 +6,7 @@
 #include "plane/cell_grid.h"
 #include "plane/predicates.h"
 #include "plane/region/boolean.h"
+#include "plane/region/region.h"
 #include "plane/tie_distance.h"
 
 namespace lamina::slicer {
@@ -50,12 +51,6 @@ std::vector<Edge> edges_of(std::span<const plane::Region> regions) {
     }
   }
   return edges;
-}
-
-Box2 box_of(const plane::Region& region) {
-  Box2 box;
-  for (const plane::Contour& contour : region.contours) box.add(contour);
-  return box;
 }
 
 bool meet(Box2 a, const Box2& b) {
@@ -112,7 +107,9 @@ bool lies_in(const plane::Region& inner, const plane::Region& outer) {
 void add_nested(std::span<const plane::Region> regions,
                 std::vector<NearPair>& pairs) {
   std::vector<Box2> boxes;
-  for (const plane::Region& region : regions) boxes.push_back(box_of(region));
+  for (const plane::Region& region : regions) {
+    boxes.push_back(plane::box_of(region.contours));
+  }
   for (std::size_t i = 0; i < regions.size(); ++i) {
     for (std::size_t k = i + 1; k < regions.size(); ++k) {
       if (!meet(boxes[i], boxes[k])) continue;

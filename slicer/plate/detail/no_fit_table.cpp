@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plane/region/minkowski.h"
+#include "plane/region/region.h"
 #include "plane/tie_distance.h"
 
 namespace lamina::slicer {
@@ -11,12 +12,6 @@ namespace {
 
 constexpr std::uint8_t kDeepest = 255;
 constexpr std::uint8_t kDiagonalStep = 4;
-
-Box2 box_of(std::span<const plane::Contour> parts) {
-  Box2 box;
-  for (const plane::Contour& part : parts) box.add(part);
-  return box;
-}
 
 // Half a turn keeps the direction of a contour.
 std::vector<plane::Contour> mirrored(std::span<const plane::Contour> parts) {
@@ -125,8 +120,8 @@ NoFitTable::NoFitTable(std::span<const plane::Contour> a,
                        std::span<const plane::Contour> b, double step) {
   if (a.empty() || b.empty()) return;
   const std::vector<plane::Contour> turned = mirrored(b);
-  const Box2 a_box = box_of(a);
-  const Box2 b_box = box_of(turned);
+  const Box2 a_box = plane::box_of(a);
+  const Box2 b_box = plane::box_of(turned);
   const Vec2 low = glm::floor((a_box.low + b_box.low) / step) - 1.0;
   const Vec2 high = glm::ceil((a_box.high + b_box.high) / step) + 1.0;
   low_ = {static_cast<std::int32_t>(low.x), static_cast<std::int32_t>(low.y)};

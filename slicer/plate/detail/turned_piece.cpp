@@ -36,9 +36,8 @@ plane::Region grow(const plane::Region& footprint, double gap) {
 }
 
 Box2 box_or_origin(const plane::Region& region) {
-  Box2 box;
-  for (const plane::Contour& contour : region.contours) box.add(contour);
-  return region.is_empty() ? Box2{Vec2(0), Vec2(0)} : box;
+  return region.is_empty() ? Box2{Vec2(0), Vec2(0)}
+                           : plane::box_of(region.contours);
 }
 
 double diameter(const plane::Contour& contour) {
