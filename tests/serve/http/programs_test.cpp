@@ -1,5 +1,6 @@
 // A server for programs (Policy), on TCP and Unix sockets, and its end.
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <thread>
@@ -275,21 +276,7 @@ TEST_F(ServingPath, SendsMuchAndSeesThePeerGo) {
   const std::string much(std::size_t{8} << 20, 'x');
   EXPECT_EQ(body_of(answer_to(get("/"), always(text(much)))).size(),
             much.size());
-  ReplyPointer late;
-  bool has_closed = false;
-  serve(
-      [&](const Request&, const ReplyPointer& reply) {
-        late = reply;
-        reply->on_close([&] { has_closed = true; });
-      },
-      [&] {
-        Client client(address_);
-        client.send(get("/"));
-        std::this_thread::sleep_for(milliseconds(50));
-        client.close();
-        std::this_thread::sleep_for(milliseconds(100));
-      });
-  EXPECT_TRUE(has_closed);
+  expect_peer_is_seen_to_go();
 }
 
 // --- The end -----------------------------------------------------------------
@@ -298,7 +285,7 @@ TEST_F(ServingPrograms, AreAnsweredWhatIsUnderWayAtTheEnd) {
   ReplyPointer late;
   std::string answer;
   std::string of_idle;
-  bool has_ended = false;
+  std::atomic<bool> has_ended = false;
   serve(
       [&](const Request& request, const ReplyPointer& reply) {
         if (request.path == "/idle") return reply->send(text("first"));
@@ -322,8 +309,7 @@ TEST_F(ServingPrograms, AreAnsweredWhatIsUnderWayAtTheEnd) {
         EXPECT_EQ(silent.receive(), "");
         answer = client.receive();
         client.close();
-        std::this_thread::sleep_for(milliseconds(50));
-        EXPECT_TRUE(has_ended);
+        EXPECT_TRUE(wait_until([&] { return has_ended.load(); }));
       });
   EXPECT_FALSE(has(of_idle, "Connection: close")) << of_idle;
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 200 ")) << answer;
@@ -333,21 +319,23 @@ TEST_F(ServingPrograms, AreAnsweredWhatIsUnderWayAtTheEnd) {
 
 TEST_F(ServingPrograms, CanFinishARequestThatHasBegunAtTheEnd) {
   std::string answer;
-  bool has_ended = false;
-  server_->after(milliseconds(100),
-                 [&] { server_->stop_listening([&] { has_ended = true; }); });
+  std::atomic<bool> has_ended = false;
+  std::atomic<bool> ends = false;
+  server_->after(milliseconds(100), [&] {
+    server_->stop_listening([&] { has_ended = true; });
+    ends = true;
+  });
   serve(always(text("answer")), [&] {
     Client client(address_);
     client.send("GET / HTTP/1.1\r\n");
-    std::this_thread::sleep_for(milliseconds(200));
+    EXPECT_TRUE(wait_until([&] { return ends.load(); }));
     client.send(host() + "\r\n");
     answer = client.receive();
     client.close();
-    std::this_thread::sleep_for(milliseconds(50));
+    EXPECT_TRUE(wait_until([&] { return has_ended.load(); }));
   });
   EXPECT_EQ(body_of(answer), "answer");
   EXPECT_TRUE(has(answer, "\r\nConnection: close\r\n")) << answer;
-  EXPECT_TRUE(has_ended);
 }
 
 void expect_end(Server& server, const Address& address) {

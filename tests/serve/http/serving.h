@@ -2,6 +2,7 @@
 // A server in this process, and connections to it, as strangers open them.
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -20,12 +21,14 @@
 #include <unistd.h>
 
 #include "serve/http/server.h"
+#include "tests/support/process.h"
 #include "tests/support/text.h"
 
 namespace lamina::http {
 
 using std::chrono::milliseconds;
 using support::has;
+using support::wait_until;
 using ReplyPointer = std::shared_ptr<Reply>;
 
 class Client {
@@ -171,6 +174,29 @@ class Serving : public testing::Test {
       answer = client.receive();
     });
     return answer;
+  }
+
+  // A reply that comes late learns that its peer has gone, and may be sent.
+  void expect_peer_is_seen_to_go() {
+    ReplyPointer late;
+    std::atomic<bool> has_come = false;
+    std::atomic<bool> has_closed = false;
+    serve(
+        [&](const Request&, const ReplyPointer& reply) {
+          late = reply;
+          reply->on_close([&] { has_closed = true; });
+          has_come = true;
+        },
+        [&] {
+          Client client(address_);
+          client.send(get("/"));
+          EXPECT_TRUE(wait_until([&] { return has_come.load(); }));
+          client.close();
+          EXPECT_TRUE(wait_until([&] { return has_closed.load(); }));
+        });
+    Response response;
+    response.body = "too late";
+    late->send(response);
   }
 
   std::string port() const { return std::to_string(address_.port); }
