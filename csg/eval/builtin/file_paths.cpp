@@ -41,11 +41,10 @@ std::string find_file(std::string_view name, const std::string& from,
 }
 
 std::string relative_path(const std::string& path, Frame& frame) {
-  if (path.empty() && !frame.in.is_2021()) return "";
+  if (path.empty()) return "";
   const FileAccess& access = frame.in.file_access();
   const fs::path folder = access.weakly_canonical(frame.in.design_folder());
-  const fs::path file =
-      path.empty() ? folder : fs::path(access.weakly_canonical(path));
+  const fs::path file = access.weakly_canonical(path);
   const std::string relative = file.lexically_relative(folder).generic_string();
   return relative == "." ? "./" : relative;
 }

@@ -41,6 +41,39 @@ TEST(BothLanguages, TakeByteOrderMarksForBlanks) {
       "ECHO: 2\n", "ECHO: 2\n");
 }
 
+TEST(BothLanguages, PrintAnEmptyFileName) {
+  for (const Language language : {Language::k2021, Language::k2026}) {
+    EXPECT_TRUE(csg("surface();", language).starts_with("surface(file = \"\""));
+    EXPECT_TRUE(csg("import();", language).starts_with("import(file = \"\""));
+  }
+}
+
+// --- Functions made in loops -------------------------------------------------
+
+TEST(Languages, FunctionsMadeInAListSeeTheValueOfTheirRoundSince2026) {
+  expect_echoes("f = [for (i = [0:2]) function() i]; echo([for (g = f) g()]);",
+                "ECHO: [2, 2, 2]\n", "ECHO: [0, 1, 2]\n");
+  expect_echoes(
+      "f = [for (i = 0; i < 3; i = i + 1) function() i];\n"
+      "echo([for (g = f) g()]);",
+      "ECHO: [3, 3, 3]\n", "ECHO: [0, 1, 2]\n");
+  expect_echoes(
+      "function make(v) = [for (e = v) function(x) x * e];\n"
+      "echo([for (g = make([1, 2, 3])) g(10)]);",
+      "ECHO: [30, 30, 30]\n", "ECHO: [10, 20, 30]\n");
+  expect_echoes(
+      "f = [for (i = [0:1]) [for (j = [0:1]) function() [i, j]]];\n"
+      "echo([for (row = f) [for (g = row) g()]]);",
+      "ECHO: [[[1, 1], [1, 1]], [[1, 1], [1, 1]]]\n",
+      "ECHO: [[[0, 0], [0, 1]], [[1, 0], [1, 1]]]\n");
+  // The counters of a loop in C's way, and what it keeps besides.
+  expect_echoes(
+      "f = [for (i = 0, s = 0; i < 3; i = i + 1, s = s + i) function() [i, "
+      "s]];\n"
+      "echo([for (g = f) g()]);",
+      "ECHO: [[3, 6], [3, 6], [3, 6]]\n", "ECHO: [[0, 0], [1, 1], [2, 3]]\n");
+}
+
 // --- Arguments ---------------------------------------------------------------
 
 TEST(Languages, PutArgumentsWithoutANameInOtherPlaces) {
