@@ -27,13 +27,23 @@ void name_lines(const csg::Scene& scene, slicer::SpruePlan& plan) {
   }
 }
 
+// Rods of a millimetre lead nowhere from what is much smaller.
+void require_size(Vec3 size) {
+  constexpr double kSmallest = 0.25;  // [mm]
+  if (std::max({size.x, size.y, size.z}) >= kSmallest) return;
+  throw GeometryError(
+      fmt::format("The design is {:g} x {:g} x {:g} mm, too small for sprues: "
+                  "are its units millimetres?",
+                  size.x, size.y, size.z));
+}
+
 void warn_of_seen(const slicer::SpruePlan& plan, Diagnostics& diagnostics) {
   for (const slicer::Sprue& sprue : plan.sprues) {
     if (!sprue.is_seen) continue;
     diagnostics.own_warning(
         {}, fmt::format("a sprue comes out where the piece is seen ($visible), "
                         "at {}",
-                        place_text(sprue.gate)));
+                        place_text(sprue.exit)));
   }
 }
 
@@ -62,6 +72,7 @@ std::optional<slicer::SpruePlan> plan_sprues(const Request& request,
     throw GeometryError("--sprue needs a solid; the design is flat");
   }
   const csg::Scene& scene = *lowered->scene();
+  require_size(scene.box.size());
   if (std::ranges::any_of(scene.instances, is_sprue)) {
     throw GeometryError("The design has sprues already");
   }

@@ -184,7 +184,8 @@ Json hollow_json(const slicer::HollowReport& hollow) {
 Json sprues_json(const slicer::SpruePlan& plan) {
   Json sprues = Json::array();
   for (const slicer::Sprue& sprue : plan.sprues) {
-    sprues.push_back({{"gate", place_json(sprue.gate)},
+    sprues.push_back({{"exit", place_json(sprue.exit)},
+                      {"gate", place_json(sprue.gate)},
                       {"diameter_mm", number(sprue.diameter)},
                       {"feeds_mm3", number(sprue.feeds)},
                       {"at", sprue.at}});
@@ -197,7 +198,7 @@ Json sprues_json(const slicer::SpruePlan& plan) {
   }
   return {{"root", place_json(plan.root)},
           {"root_diameter_mm", number(plan.root_diameter)},
-          {"volume_mm3", number(plan.volume())},
+          {"volume_mm3", number(plan.volume)},
           {"sprues", std::move(sprues)},
           {"unfed", std::move(unfed)}};
 }

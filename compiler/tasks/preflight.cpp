@@ -242,9 +242,9 @@ std::optional<Preflight> preflight(Compilation& c,
   const csg::Scene& scene = *lowered->scene();
   const slicer::Settings settings = settings_of(c.request, c.report.machine);
   found.layers = slicer::all_layers(scene, settings);
+  found.volume = slicer::volume_of(found.layers);
   for (const slicer::Layer& layer : found.layers) {
     const slicer::LayerMeasures measures = slicer::measure(layer.contours);
-    found.volume += measures.area * (layer.top - layer.bottom);
     if (measures.box.is_empty()) continue;
     found.box.add(Vec3(measures.box.low, layer.bottom));
     found.box.add(Vec3(measures.box.high, layer.top));

@@ -9,9 +9,13 @@
 
 #include "base/text.h"
 #include "compiler/compile.h"
+#include "compiler/passes.h"
 #include "compiler/sprues.h"
 #include "compiler/stage_text.h"
 #include "csg/design_text.h"
+#include "slicer/contour/layer_measures.h"
+#include "slicer/slice/scene_parts.h"
+#include "slicer/slice/slice.h"
 #include "slicer/thickness/solid_samples.h"
 
 namespace lamina::compiler {
@@ -53,8 +57,6 @@ void sample(const csg::Scene& scene, slicer::TreePiece& shape) {
         is_sprue(scene.instances[point.instance]) ? shape.sprue : shape.points;
     points.push_back(point.place);
   }
-  shape.volume =
-      static_cast<double>(samples.cells.size()) * kPitch * kPitch * kPitch;
 }
 
 // "multmatrix([[1, 0, 0, 2.5], …, [0, 0, 0, 1]])"
@@ -82,11 +84,15 @@ std::optional<TreePart> make_tree_part(Compilation& c) {
   TreePart part;
   part.csg = stage_text(c);
   const csg::Lowered lowered = lower_tree(c);
-  sample(*lowered.scene(), part.shape);
+  const csg::Scene& scene = *lowered.scene();
+  sample(scene, part.shape);
   part.shape.root = plan.root;
   part.shape.direction = plan.direction;
-  part.volume = part.shape.volume - plan.volume();
   part.shape.root_diameter = plan.root_diameter;
+  const slicer::Settings settings = settings_of(c.request, {});
+  part.shape.volume = slicer::volume_of(slicer::all_layers(scene, settings));
+  part.volume = slicer::volume_of(
+      slicer::all_layers(slicer::without(scene, is_sprue), settings));
   return part;
 }
 

@@ -14,7 +14,7 @@ namespace lamina::compiler {
 struct TreePart {
   slicer::TreePiece shape;
   std::string csg;    // the sprued design, as its .csg text
-  double volume = 0;  // of the piece alone, about [mm³]
+  double volume = 0;  // of the piece alone [mm³]
 };
 
 // Plans the sprues that the request asks for. No value where the design failed,

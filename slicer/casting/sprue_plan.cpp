@@ -43,6 +43,11 @@ constexpr double kStep = 0.5;
 constexpr double kStepsAhead = 6;
 constexpr double kDoubt = 0.2;
 
+// Of the box of all sprues, to count their volume. Balls of 24 or 32 sides are
+// as large as round ones whose radius is this share of theirs.
+constexpr double kVolumeCells = 1e6;
+constexpr double kFacetShare = 0.99;
+
 double cone_volume(double length, double d1, double d2) {
   return std::numbers::pi / 12 * length * (d1 * d1 + d1 * d2 + d2 * d2);
 }
@@ -52,6 +57,39 @@ struct Side {
   Vec3 direction = Vec3(0);   // unit length
   double reach = -kInfinity;  // of the piece that way [mm]
 };
+
+Box3 box_of(const Ball& ball) {
+  return {ball.centre - ball.radius, ball.centre + ball.radius};
+}
+
+// As they are written.
+Ball written_ball(Vec3 middle, double diameter) {
+  return {middle, kFacetShare * diameter / 2};
+}
+Ball gate_of(const Sprue& sprue) {
+  return written_ball(sprue.gate, sprue.diameter);
+}
+Ball end_of(const Sprue& sprue) {
+  return written_ball(sprue.end, sprue.thickness);
+}
+
+// Whether a place is in the hull of two balls: in one of those between them.
+bool is_in_rod(Vec3 place, const Ball& a, const Ball& b) {
+  const Vec3 between = b.centre - a.centre;
+  const double length = glm::length(between);
+  const double growth = (b.radius - a.radius) / length;
+  if (std::abs(growth) >= 1) {  // one holds the other
+    const Ball& larger = growth > 0 ? b : a;
+    return glm::distance(place, larger.centre) <= larger.radius;
+  }
+  const Vec3 along = between / length;
+  const double forward = glm::dot(place - a.centre, along);
+  const double aside = glm::distance(place, a.centre + forward * along);
+  // The ball that reaches farthest there.
+  const double at = std::clamp(
+      forward + growth * aside / std::sqrt(1 - growth * growth), 0.0, length);
+  return glm::distance(place, a.centre + at * along) <= a.radius + growth * at;
+}
 
 // Directions that are spread over the sphere evenly: Vogel's spiral.
 std::vector<Vec3> directions() {
@@ -75,6 +113,7 @@ struct Target {
 
 // A straight way out of a ball.
 struct Way {
+  Vec3 exit = Vec3(0);
   Vec3 gate = Vec3(0);
   std::uint32_t instance = 0;  // of the surface there
   bool is_seen = false;
@@ -224,15 +263,15 @@ class SpruePlanner {
       out += samples_.pitch;
       if (out > kMostInside * end.radius + samples_.pitch) return std::nullopt;
     }
-    const Vec3 exit = end.centre + out * along;
     const double ball = kGateShare * end.radius;
     Way way;
-    way.is_seen = seen_balls_.nearest(exit, ball).has_value();
+    way.exit = end.centre + out * along;
+    way.is_seen = seen_balls_.nearest(way.exit, ball).has_value();
     if (way.is_seen && !allows_seen_) return std::nullopt;
     if (!is_clear(end, root, out)) return std::nullopt;
-    way.gate = exit + (1 - kGateDepth) * ball * along;
+    way.gate = way.exit + (1 - kGateDepth) * ball * along;
     if (is_met_ahead(way.gate, ball, along)) return std::nullopt;
-    if (const auto nearest = balls_.nearest(exit, kInfinity)) {
+    if (const auto nearest = balls_.nearest(way.exit, kInfinity)) {
       way.instance = samples_.points[nearest->point].instance;
     }
     return way;
@@ -295,6 +334,7 @@ class SpruePlanner {
       cost += volume;
       return Sprue{.end = end.centre,
                    .thickness = 2 * end.radius,
+                   .exit = way->exit,
                    .gate = way->gate,
                    .diameter = 2 * kGateShare * end.radius,
                    .feeds = target.pool.volume,
@@ -319,7 +359,7 @@ class SpruePlanner {
   // of all, which it lowers.
   Choice choose_at(const Side& side, std::atomic<double>& least) const {
     const Vec3 direction = side.direction;
-    const double height = side.reach + sizes_.length;
+    const double height = side.reach + sizes_.length + root_diameter_ / 2;
     std::vector<Vec3> middles;
     for (const Ball& end : targets_.front().ends) {
       middles.push_back(end.centre);
@@ -365,7 +405,47 @@ class SpruePlanner {
     std::vector<Gate> gates;
     for (const Sprue& sprue : plan.sprues) gates.push_back({sprue.end, 0});
     plan.unfed = unfed_of(find_pools(samples_, balls_, field_, gates));
+    plan.volume = volume_outside(plan);
     return plan;
+  }
+
+  // What the written sprues add to the piece.
+  double volume_outside(const SpruePlan& plan) const {
+    const Ball root = written_ball(plan.root, plan.root_diameter);
+    Box3 box = box_of(root);
+    for (const Sprue& sprue : plan.sprues) {
+      box.add(box_of(gate_of(sprue)));
+      box.add(box_of(end_of(sprue)));
+    }
+    const double disc = kDiscShare * plan.root_diameter / 2;
+    if (plan.has_disc) box.add(box_of({plan.root, disc}));
+    const auto holds = [&](Vec3 place) {
+      if (plan.has_disc) {
+        const Vec3 offset = place - plan.root;
+        const double down = glm::dot(offset, plan.direction);
+        const double below = plan.root_diameter / 2 - down;
+        if (below >= 0 && below <= kDiscThickness &&
+            glm::length(offset - down * plan.direction) <= disc) {
+          return true;
+        }
+      }
+      return std::ranges::any_of(plan.sprues, [&](const Sprue& sprue) {
+        return is_in_rod(place, root, gate_of(sprue)) ||
+               is_in_rod(place, gate_of(sprue), end_of(sprue));
+      });
+    };
+    const Vec3 size = box.size();
+    const double pitch = std::cbrt(size.x * size.y * size.z / kVolumeCells);
+    std::size_t count = 0;
+    for (double x = box.low.x + pitch / 2; x < box.high.x; x += pitch) {
+      for (double y = box.low.y + pitch / 2; y < box.high.y; y += pitch) {
+        for (double z = box.low.z + pitch / 2; z < box.high.z; z += pitch) {
+          const Vec3 place(x, y, z);
+          if (holds(place) && !is_inside(place)) ++count;
+        }
+      }
+    }
+    return static_cast<double>(count) * pitch * pitch * pitch;
   }
 
   const SolidSamples& samples_;
@@ -381,15 +461,6 @@ class SpruePlanner {
 };
 
 }  // namespace
-
-double SpruePlan::volume() const {
-  double volume = 0;
-  for (const Sprue& sprue : sprues) {
-    volume += cone_volume(glm::distance(sprue.gate, root), sprue.diameter,
-                          root_diameter);
-  }
-  return volume;
-}
 
 std::vector<Pool> unfed_of(std::vector<Pool> pools) {
   double whole = 0;
@@ -415,7 +486,7 @@ std::string unfed_text(std::span<const Pool> pools) {
 std::string size_text(const SpruePlan& plan) {
   std::string text = fmt::format("{}, root {:.2f} mm wide, {:.3g} mm³",
                                  counted(plan.sprues.size(), "sprue"),
-                                 plan.root_diameter, plan.volume());
+                                 plan.root_diameter, plan.volume);
   const std::string unfed = unfed_text(plan.unfed);
   return unfed.empty() ? text : text + "; " + unfed;
 }

@@ -1,11 +1,11 @@
 #pragma once
 // Sprues of a casting: rods through which metal flows into a piece.
 //
-// A sprue is a cone. It begins in the **root**, where it will be joined to a
-// tree, and ends at the surface, in the **gate**. From there it narrows to the
-// largest ball in the piece there, so that it comes out nowhere else. Where one
-// place cannot feed all of the piece (slicer/thickness/feeding.h), there are
-// several sprues with one root.
+// A sprue is a cone. It begins in the **root**, a ball where it will be joined
+// to a tree, and ends in the **gate**, a ball that reaches into the piece. From
+// there it narrows to the largest ball in the piece there, so that it comes out
+// nowhere else. Where one place cannot feed all of the piece
+// (slicer/thickness/feeding.h), there are several sprues with one root.
 //
 // Where a rod meets a plate the ball that fits is larger than in either: of a
 // plate t thick and a rod k t wide it is (1 + k² / 4) t wide. So that the rod
@@ -30,7 +30,7 @@ namespace lamina::slicer {
 struct SprueSizes {
   // Diameter of the root [mm]; 0: kRootShare times that of the widest sprue.
   double root = 0;
-  double length = 5;      // from the piece to the root, at least [mm]
+  double length = 5;      // from the piece to the root's ball, at least [mm]
   bool has_disc = false;  // at the root, for pieces that stand on it
 
   bool operator==(const SprueSizes&) const = default;
@@ -51,6 +51,7 @@ inline constexpr std::size_t kMostSprues = 4;
 struct Sprue {
   Vec3 end = Vec3(0);          // the middle of the ball in the piece
   double thickness = 0;        // of the piece there, the ball's diameter [mm]
+  Vec3 exit = Vec3(0);         // where the rod comes out of the piece
   Vec3 gate = Vec3(0);         // the middle of the ball outside
   double diameter = 0;         // of that [mm]
   double feeds = 0;            // volume of the pool that it is set for [mm³]
@@ -66,8 +67,7 @@ struct SpruePlan {
   bool has_disc = false;
   std::vector<Sprue> sprues;  // that of the thickest place first
   std::vector<Pool> unfed;    // by none of them, the largest first
-
-  double volume() const;  // of the rods outside the piece, about [mm³]
+  double volume = 0;  // of all this outside the piece, counted in cells [mm³]
 };
 
 // What is not fed, but for places of less than kLeastUnfedShare of all.

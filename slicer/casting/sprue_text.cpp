@@ -21,8 +21,8 @@ module lamina_sprues() {
 )";
 
 constexpr const char* kSprueModule = R"(
-  // A cone from the root to the gate, a ball of diameter d at the surface, and
-  // on to the middle of the piece, which is `thickness` thick there.
+  // A cone from the root to the gate, a ball of diameter d that reaches into the
+  // piece, and on to the middle of the piece, which is `thickness` thick there.
   module sprue(gate, d, end, thickness) {
     hull() {
       translate(sprue_root) sphere(d = sprue_root_d, $fn = 32);

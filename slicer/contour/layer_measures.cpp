@@ -60,6 +60,14 @@ LayerMeasures measure(const plane::Contours& contours) {
   return measures;
 }
 
+double volume_of(std::span<const Layer> layers) {
+  double volume = 0;
+  for (const Layer& layer : layers) {
+    volume += measure(layer.contours).area * (layer.top - layer.bottom);
+  }
+  return volume;
+}
+
 double total_perimeter(const plane::Contours& contours) {
   double length = 0;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {

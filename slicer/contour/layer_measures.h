@@ -5,10 +5,12 @@
 // some percent of its time, are for those who ask.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "base/vec.h"
 #include "plane/contours.h"
+#include "slicer/contour/layer.h"
 
 namespace lamina::slicer {
 
@@ -21,6 +23,9 @@ struct LayerMeasures {
 };
 
 LayerMeasures measure(const plane::Contours& contours);
+
+// Of layers as high as they are [mm³].
+double volume_of(std::span<const Layer> layers);
 
 // The length of all loops [mm].
 double total_perimeter(const plane::Contours& contours);

@@ -56,10 +56,18 @@ std::optional<csg::Scene> supports_of(const csg::Scene& scene) {
 }
 
 csg::Scene without_supports(const csg::Scene& scene) {
+  return without(scene, [&](const csg::Instance& instance) {
+    return is_support(scene, instance);
+  });
+}
+
+csg::Scene without(
+    const csg::Scene& scene,
+    const std::function<bool(const csg::Instance&)>& is_unwanted) {
   csg::Scene rest = scene;
   rest.instances.clear();
   for (const csg::Instance& instance : scene.instances) {
-    if (is_support(scene, instance)) {
+    if (is_unwanted(instance)) {
       --rest.program[instance.parent].child_count;
     } else {
       rest.instances.push_back(instance);

@@ -21,6 +21,12 @@ std::optional<csg::Scene> leaves_of(
     const csg::Scene& scene,
     const std::function<bool(const csg::Instance&)>& is_wanted);
 
+// The scene without the leaves that are unwanted, each an operand of unions
+// alone.
+csg::Scene without(
+    const csg::Scene& scene,
+    const std::function<bool(const csg::Instance&)>& is_unwanted);
+
 // Whether one of these modules of the design made the leaf.
 bool is_made_by(const csg::Instance& instance,
                 std::span<const std::string_view> modules);

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "slicer/casting/sprue_text.h"
+#include "slicer/contour/layer_measures.h"
+#include "slicer/slice/slice.h"
 #include "tests/support/design.h"
 
 namespace lamina::slicer {
@@ -34,6 +36,13 @@ Planned plan_of(const std::string& text, const SprueSizes& sizes = {}) {
                       [&](std::uint32_t instance) {
                         return design.scene().instances[instance].is_visible;
                       })};
+}
+
+double volume_of(const std::string& text) {
+  const Design design = Design::from_text(text);
+  Settings settings;
+  settings.layer_thickness = 0.02;
+  return volume_of(all_layers(design.scene(), settings));
 }
 
 // What is not fed from the root when the piece has its sprues.
@@ -67,7 +76,9 @@ TEST(PlanSprues, SetsOneOnABall) {
   // The gate's ball reaches into the piece by its share, and no farther.
   EXPECT_NEAR(glm::length(sprue.gate) - sprue.diameter / 2,
               4 - kGateDepth * sprue.diameter / 2, 0.3);
-  EXPECT_NEAR(glm::length(planned.plan->root), 4 + SprueSizes().length, 0.1);
+  EXPECT_NEAR(glm::length(planned.plan->root),
+              4 + SprueSizes().length + planned.plan->root_diameter / 2, 0.1);
+  EXPECT_NEAR(glm::length(sprue.exit), 4, 0.3);
   EXPECT_TRUE(unfed_with(planned).empty());
 }
 
@@ -107,7 +118,8 @@ TEST(PlanSprues, KeepsAwayFromThePiece) {
     const BallFinder balls(samples.points);
     const auto nearest = balls.nearest(planned.plan->root, 1e9);
     ASSERT_TRUE(nearest);
-    EXPECT_GE(nearest->distance, SprueSizes().length - kCover * kPitch);
+    EXPECT_GE(nearest->distance - planned.plan->root_diameter / 2,
+              SprueSizes().length - kCover * kPitch);
   }
 }
 
@@ -147,12 +159,28 @@ TEST(PlanSprues, TakesSizesAndScales) {
   EXPECT_EQ(planned.plan->root_diameter, 9);
   const Box3 box = {Vec3(0), Vec3(6)};
   const Vec3 root = planned.plan->root;
-  EXPECT_GE(glm::length(root - glm::clamp(root, box.low, box.high)), 12 - 1e-6);
+  EXPECT_GE(glm::length(root - glm::clamp(root, box.low, box.high)) - 9.0 / 2,
+            12 - 1e-6);
   // The rule is of shares.
   const auto small = plan_of("cube(6);");
   const auto large = plan_of("cube(12);");
   ASSERT_TRUE(small.plan && large.plan);
   EXPECT_NEAR(large.plan->root_diameter, 2 * small.plan->root_diameter, 0.2);
+}
+
+// What the written sprues add to the piece, by its layers.
+TEST(PlanSprues, CountsTheVolumeOfAll) {
+  for (const std::string& piece :
+       {std::string("cube(10);"), kDumbbell, kRing}) {
+    for (const bool has_disc : {false, true}) {
+      const auto planned = plan_of(piece, {.has_disc = has_disc});
+      ASSERT_TRUE(planned.plan);
+      const double added =
+          volume_of(piece + sprue_text(*planned.plan)) - volume_of(piece);
+      // Balls and rods have 24 to 64 sides.
+      EXPECT_NEAR(planned.plan->volume, added, 0.04 * added) << piece;
+    }
+  }
 }
 
 TEST(SprueText, HasALineForEachAndADisc) {
