@@ -147,6 +147,11 @@ std::string shown_path(const std::string& given) {
   return relative.starts_with("..") ? path : relative;
 }
 
+std::string path_of_shown(const std::string& shown) {
+  if (naming().absolute.empty()) return shown;
+  return (fs::path(naming().absolute.front()) / shown).string();
+}
+
 std::string quoted_path(std::string_view path) {
   return fmt::format("\"{}\"", fs::path(display_path(std::string(path)))
                                    .lexically_proximate(fs::current_path())

@@ -34,6 +34,10 @@ std::string display_path(const std::string& path);
 // folder.
 std::string shown_path(const std::string& path);
 
+// A path that shown_path() has shown, for reading: where files are named from a
+// folder it lies there.
+std::string path_of_shown(const std::string& shown);
+
 // `path` in quotes, as OpenSCAD shows it: from the current folder, with as
 // many "../" as it takes.
 std::string quoted_path(std::string_view path);

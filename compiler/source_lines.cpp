@@ -45,7 +45,7 @@ std::string place_from(const std::string& folder, const std::string& place) {
     if (digits == std::string::npos || place[digits] != ':') break;
     end = digits;
   }
-  std::string path = relative_path(place.substr(0, end), folder);
+  std::string path = relative_path(path_of_shown(place.substr(0, end)), folder);
   if (path.starts_with("../../")) {
     path = std::filesystem::path(path).filename().string();
   }

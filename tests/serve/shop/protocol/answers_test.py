@@ -57,6 +57,13 @@ class AnswersTest(service.ServiceTest):
                      {metal["title"] for metal in quote["metals"]}})
                 self.assertGreaterEqual(quote["values"].items(), values.items())
 
+    def test_places_of_findings_are_seen_from_the_root(self):
+        places = [place for finding in self.service.quote("solitaire")["findings"]
+                  for place in finding["source"].split(" from ")]
+        # What is small has no line.
+        files = {place.split(":")[0] for place in places if place}
+        self.assertEqual(files, {"solitaire.scad", "lib/jewelry.scad"})
+
     def test_prices_are_weights_times_prices(self):
         quote = self.service.quote("solitaire")
         # Sterling silver weighs 10.36 g/cm³.
