@@ -28,7 +28,8 @@ constexpr std::string_view kCheckHelp =
 
 Says whether a design would print, or a file of layers (.slc, .cli, .svg,
 .slices.3mf, .sl1, .goo, .ctb, .zip, .layers.json, a folder of images), and what
-would go wrong. It takes the options of slicing and writes no file:
+would go wrong. It takes the options of Design and Slicing that 'lamina --help'
+lists, but --heights, and writes no file:
 
   loose parts    are connected to nothing that reaches the bed
   islands        begin in mid-air: nothing in the layer below holds them
@@ -43,7 +44,8 @@ it; the worst comes first. With --printer it says whether the part fits; with
 --min-feature, which walls and gaps are thin: in a layer, and of a design also
 in space, where they lie flat or lean. What is smaller than a pixel of
 the printer (0.001 mm² where none is named) is only counted. The exit status is
-1 if something would go wrong, or with --fail-on, if that would.
+1 if something would go wrong (with --fail-on, if that would), and where it is
+too thin or does not fit.
 
   --printer P         the printer, as for slicing
   --material M, --metal M, --price PRICES

@@ -18,12 +18,13 @@ constexpr std::string_view kInspectHelp =
 
 Shows the header, the layers, the box, the volume and the weight in usual
 metals of a file of layers (.slc, .cli, .svg, .3mf, .sl1, .goo, .ctb, .zip,
-.layers.json, a folder of images), or of a design or mesh with any option that
-slicing has; of a mesh (.stl, .off, .obj, .ply, .amf, .3mf) also its vertices,
-triangles, components, genus and holes, as they are in the file. Checks the
-loops: closed, without repeats, crossings and empty loops, in the direction that
-their nesting asks for, layers one on the other. Ends with 1 if there is a
-defect. Says what would go wrong in the print as 'lamina check' does.
+.layers.json, a folder of images), or of a design or mesh with the options of
+Design and Slicing that 'lamina --help' lists; of a mesh (.stl, .off, .obj,
+.ply, .amf, .3mf) also its vertices, triangles, components, genus and holes, as
+they are in the file. Checks the loops: closed, without repeats, crossings and
+empty loops, in the direction that their nesting asks for, layers one on the
+other. Ends with 1 if there is a defect. Says what would go wrong in the print
+as 'lamina check' does.
 
   --all       list every layer of a long file
   --json      print all of it as JSON

@@ -43,7 +43,8 @@ one you like. Ctrl-C lists what has been judged until then; a second one ends.
   -q, --quiet         print errors only
   -h, --help          print this help
 
-All options of Design and Slicing are those of 'lamina --help'.
+All options of Design and Slicing are those of 'lamina --help', but for those
+that say how the design lies, --adaptive and --heights.
 )";
 
 class OrientCommand : public Command {
@@ -58,18 +59,24 @@ class OrientCommand : public Command {
     add_print_options(options, request_);
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
+    // What has no say in which direction is good.
+    for (const char* name :
+         {"--metal", "--price", "--min-feature", "--fail-on"}) {
+      options.remove(name);
+    }
   }
 
   bool takes_settings() const override { return true; }
 
   void check() override {
     require_page_or_json("orient", output_);
+    refuse_layers(request_.design.path);
     refuse_if(request_.job.cusp > 0 || !request_.job.heights.empty(),
               "orient compares layers of one thickness");
     refuse_if(request_.geometry.up ||
                   request_.geometry.searched_direction > 0 ||
-                  request_.geometry.axis != "z",
-              "orient finds what --axis or --orient would say");
+                  request_.geometry.axis != "z" || request_.geometry.turn != 0,
+              "orient finds what --axis, --orient or --turn would say");
     // Its sizes; the design itself is judged without supports.
     sizes_ = request_.supports;
     request_.supports.reset();

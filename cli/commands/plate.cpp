@@ -127,6 +127,7 @@ class PlateCommand : public Command {
 
   void check() override {
     cli::check(from_, "plate");
+    request_.design.path = from_.designs.empty() ? "" : from_.designs.front();
     refuse_if(request_.output.printer.empty() && plate_.size.x == 0,
               "plate needs --printer, or the plate's size as --plate W,D");
     refuse_if(request_.job.cusp > 0 || !request_.job.heights.empty(),
@@ -143,7 +144,6 @@ class PlateCommand : public Command {
     refuse_if(!slicer::is_of_layers(request_.output.format),
               "plates are layers; '{}' is none", request_.output.path);
     request_.geometry.is_placed_on_bed = true;
-    request_.design.path = from_.designs.empty() ? "" : from_.designs.front();
     // Each piece gets its own.
     if (has_labels_) request_.raft_label = "name";
     compiler::validate(request_);

@@ -43,7 +43,8 @@ something is too thin or too shallow.
   -q, --quiet         print errors only
   -h, --help          print this help
 
-All options of Design and Slicing are those of 'lamina --help'.
+All options of Design and Slicing are those of 'lamina --help', but for
+--supports, --sprue, --compensate and --heights.
 )";
 
 ordered_json json_of(Vec3 place) { return {place.x, place.y, place.z}; }
@@ -68,14 +69,21 @@ class PreflightCommand : public Command {
     add_machine_options(options, request_);
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
+    for (const char* name : {"--printer", "--price"}) options.remove(name);
   }
 
   bool takes_settings() const override { return true; }
 
   void check() override {
     require_page_or_json("preflight", output_);
-    refuse_if(request_.supports.has_value(),
-              "preflight looks at the piece without --supports");
+    refuse_layers(request_.design.path);
+    refuse_if(request_.supports || request_.sprues,
+              "preflight looks at the piece without --supports and --sprue");
+    refuse_if(!request_.job.heights.empty(),
+              "preflight weighs whole layers, not --heights");
+    const auto& compensation = request_.compensation;
+    refuse_if(compensation.contour || compensation.foot || compensation.bleed,
+              "preflight looks at the piece without --compensate");
     compiler::validate(request_);
   }
 

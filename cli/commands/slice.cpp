@@ -203,13 +203,6 @@ Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
 130 interrupted.
 )";
 
-void refuse_layers(const std::string& file) {
-  refuse_if(slicer::is_named_as_layers(file),
-            "'{0}' holds layers already; try 'lamina inspect {0}' or 'lamina "
-            "view {0}'",
-            file);
-}
-
 // A word that looks like no file but much like a command, or is one that does
 // not come first.
 void refuse_misspelt_command(const std::string& word) {

@@ -38,8 +38,10 @@ still reach only through thinner places is listed.
                       from the piece it is at least, too; add ,disc for a plate
                       for the piece to stand on [1.8 times the thickest place, 5]
 
-All options of Design are those of 'lamina --help', and so are --chordal-error
-and --decimate. Slicing takes --sprue, too, and adds the same sprues in the run.
+All options of Design but -p and -P are those of 'lamina --help', and so are
+--chordal-error and --decimate: the written design has the piece as it is drawn.
+Slicing takes --sprue, too, and adds the same sprues in the run; turn, scale and
+hold what is written with 'lamina supports SPRUED.scad' or as you slice it.
 
   -q, --quiet         print errors only
   -h, --help          print this help
@@ -54,7 +56,8 @@ class SprueCommand : public Command {
     options.word("design", request_.design.path).required();
     options.name("-o", "file", output_).required();
     add_design_options(options, request_, is_quiet_);
-    add_slicing_options(options, request_);
+    add_facet_options(options, request_);
+    add_sprue_option(options, request_);
   }
 
   void check() override {
@@ -63,11 +66,8 @@ class SprueCommand : public Command {
               output_);
     refuse_if(!request_.design.parameter_file.empty(),
               "sprue takes values from -D, not from -p and -P");
-    refuse_if(request_.supports.has_value(),
-              "supports come last: lamina supports SPRUED.scad");
+    refuse_layers(request_.design.path);
     compiler::validate(request_);
-    // The written design has the piece as it is drawn.
-    request_ = compiler::as_drawn(request_);
   }
 
   int run(const Context& context) override {
@@ -96,7 +96,7 @@ class SprueCommand : public Command {
     for (const slicer::Sprue& sprue : plan.sprues) {
       text += fmt::format(
           "\n{:.2f} mm wide, on {:.2f} mm, at {}: feeds {:.3g} mm³{}",
-          sprue.diameter, sprue.thickness, place_text(sprue.gate), sprue.feeds,
+          sprue.diameter, sprue.thickness, place_text(sprue.exit), sprue.feeds,
           sprue.at.empty() ? "" : ", at " + sprue.at);
     }
     const std::string left = slicer::unfed_text(unfed);

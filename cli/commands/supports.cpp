@@ -44,7 +44,8 @@ would still begin in mid-air, or reach out farther than a support holds.
   --no-support-on LINES
                       add no supports to what these lines make
 
-All options of Design and Slicing are those of 'lamina --help'.
+All options of Design but -p and -P, and all of Slicing, are those of
+'lamina --help'.
 
   -q, --quiet         print errors only
   -h, --help          print this help
@@ -59,6 +60,7 @@ class SupportsCommand : public Command {
     options.word("design", request_.design.path).required();
     options.name("-o", "file", output_).required();
     add_print_options(options, request_);
+    options.remove("--min-feature");
     add_design_options(options, request_, is_quiet_);
     add_slicing_options(options, request_);
   }
@@ -69,6 +71,7 @@ class SupportsCommand : public Command {
               output_);
     refuse_if(!request_.design.parameter_file.empty(),
               "supports takes values from -D, not from -p and -P");
+    refuse_layers(request_.design.path);
     compiler::validate(request_);
     request_.job.finds_makers = true;
     auto& fail_on = request_.job.print.fail_on;

@@ -75,9 +75,10 @@ class TreeCommand : public Command {
     add_length(options, "--gap", sizes_.gap);
     add_length(options, "--wall", sizes_.wall);
     add_length(options, "--trunk", sizes_.trunk);
-    options.name("--metal", "metal", metal_);
+    options.name("--metal", "metal", metals_.metal);
     add_design_options(options, request_, is_quiet_);
-    add_slicing_options(options, request_);
+    add_facet_options(options, request_);
+    add_sprue_option(options, request_);
   }
 
   void check() override {
@@ -85,8 +86,6 @@ class TreeCommand : public Command {
     refuse_if(!output_.ends_with(".scad"),
               "tree writes a .scad design, but '{}' does not end in .scad",
               output_);
-    refuse_if(request_.supports.has_value(),
-              "supports come last: lamina supports TREE.scad");
     for (const std::string& word : words_in(output_)) {
       refuse_if(word != "tree", "'{{{}}}' in -o: trees have {{tree}} alone",
                 word);
@@ -98,7 +97,6 @@ class TreeCommand : public Command {
               "mm, the ends {:g} mm",
               sizes_.flask_diameter, sizes_.flask_height, sizes_.wall,
               sizes_.top + sizes_.foot);
-    request_ = compiler::as_drawn(request_);
     request_.design.path = from_.designs.empty() ? "" : from_.designs.front();
     request_.output.format = slicer::OutputFormat::kCsg;
     request_.output.path = output_;
@@ -110,6 +108,7 @@ class TreeCommand : public Command {
     SourceStore sources;
     Diagnostics diagnostics([&](const Diagnostic& d) { terminal.show(d); });
     return run_caught(terminal, {&diagnostics}, [&] {
+      metal_ = compiler::choose_machine(metals_, context.file_access()).metal;
       std::vector<std::size_t> wanted =
           make_parts(context, sources, diagnostics);
       if (diagnostics.has_errors() || has_failed_) return kFault;
@@ -235,21 +234,21 @@ class TreeCommand : public Command {
         "{}: {} on a trunk {:g} x {:.0f} mm, {:.4g} mm³ with sprues and trunk",
         on_one_line(path), counted(tree.placements.size(), "piece"),
         sizes_.trunk, tree.trunk_height, volume);
-    if (!metal_.empty()) {
-      const auto metal = slicer::find_material(metal_, context.file_access());
+    if (metal_) {
       double pieces = 0;
       for (const auto& placement : tree.placements) {
         pieces += parts_[placement.piece].volume;
       }
-      text +=
-          fmt::format("; {:.4g} g of {}, {:.4g} g of it pieces",
-                      metal.weight(volume), metal.title, metal.weight(pieces));
+      text += fmt::format("; {:.4g} g of {}, {:.4g} g of it pieces",
+                          metal_->weight(volume), metal_->title,
+                          metal_->weight(pieces));
     }
     terminal.say(text);
   }
 
   OrderSources from_;
-  std::string metal_;
+  compiler::OutputRequest metals_;  // its metal
+  std::optional<slicer::Material> metal_;
   std::string output_;
   slicer::TreeSizes sizes_;
   compiler::Request request_;

@@ -306,10 +306,26 @@ void add_design_options(OptionList& options, compiler::Request& request,
   options.end_group();
 }
 
-void add_slicing_options(OptionList& options, compiler::Request& request) {
-  slicer::Settings& settings = request.job;
-  options.count("--threads", settings.threads);
+void add_facet_options(OptionList& options, compiler::Request& request) {
+  options.count("--threads", request.job.threads);
+  options.begin_group(kDesignGroup);
+  options.number("--chordal-error", "length", request.geometry.chordal_error);
+  options.number("--decimate", "length", request.geometry.decimation);
+  options.end_group();
+}
 
+void add_sprue_option(OptionList& options, compiler::Request& request) {
+  options.begin_group(kDesignGroup);
+  options.flag("--sprue", [&request](const std::string& sizes) {
+    request.sprues = sprues_of(sizes);
+  });
+  options.end_group();
+}
+
+void add_slicing_options(OptionList& options, compiler::Request& request) {
+  add_facet_options(options, request);
+  add_sprue_option(options, request);
+  slicer::Settings& settings = request.job;
   options.begin_group(kDesignGroup);
   options.number("--layer", "length", settings.layer_thickness);
   options.number("--adaptive", "length", settings.cusp);
@@ -317,8 +333,6 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.text("--heights", "list", [&](const std::string& text) {
     settings.heights = require_numbers("--heights", text);
   });
-  options.number("--chordal-error", "length", request.geometry.chordal_error);
-  options.number("--decimate", "length", request.geometry.decimation);
   options.number("--tolerance", "length", settings.tolerance);
   options.text("--compensate", "lengths", [&request](const std::string& text) {
     request.compensation = compensation_of(text);
@@ -338,9 +352,6 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
   options.number("--turn", "degrees", request.geometry.turn);
   options.flag("--supports", [&request](const std::string& size) {
     request.supports = sizes_of(size);
-  });
-  options.flag("--sprue", [&request](const std::string& sizes) {
-    request.sprues = sprues_of(sizes);
   });
   options.text("--support-on", "lines", [&request](const std::string& text) {
     request.support_lines.only = lines_of("--support-on", text);
@@ -378,6 +389,13 @@ void add_slicing_options(OptionList& options, compiler::Request& request) {
                                                 : ldni::SamplerKind::kGl;
                  });
   options.end_group();
+}
+
+void refuse_layers(const std::string& file) {
+  refuse_if(slicer::is_named_as_layers(file),
+            "'{0}' holds layers already; try 'lamina inspect {0}' or 'lamina "
+            "view {0}'",
+            file);
 }
 
 void note_design_option(OptionList& options, compiler::Request& request) {

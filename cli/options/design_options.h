@@ -13,8 +13,17 @@ namespace lamina::cli {
 void add_design_options(OptionList& options, compiler::Request& request,
                         bool& is_quiet);
 
-// Adds the options that --help calls Slicing.
+// Adds --chordal-error and --decimate, which say how many facets there are, and
+// --threads.
+void add_facet_options(OptionList& options, compiler::Request& request);
+
+void add_sprue_option(OptionList& options, compiler::Request& request);
+
+// Adds the options that --help calls Slicing, those among them.
 void add_slicing_options(OptionList& options, compiler::Request& request);
+
+// Throws RequestError where a file holds layers: a design was expected.
+void refuse_layers(const std::string& file);
 
 // The group of those among them that change layers: files of layers
 // have no use for these. (--threads and limits of a run harm nobody.)

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "base/similar.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/options/option_values.h"
 
@@ -55,6 +56,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOthers =
       {"-j", "--threads"},
       {"-V", "--version"},
       {"--simplify", "--tolerance"}}};
+
+// As CLI11 has it, which turns their order around.
+std::string unexpected_words(const std::vector<std::string>& words) {
+  return fmt::format("The following argument{} not expected: {}",
+                     words.size() > 1 ? "s were" : " was",
+                     fmt::join(words, " "));
+}
 
 // For the first word that is not an option but much like one, or one of another
 // program.
@@ -196,9 +204,15 @@ Option OptionList::whole(const std::string& name,
 }
 
 Option OptionList::layer_number(std::optional<std::size_t>& target) {
-  return Option(*app_->add_option("--layer-number", target)
-                     ->check(CLI::PositiveNumber)
-                     ->type_name("number"));
+  return text("--layer-number", "number", [&target](const std::string& words) {
+    constexpr double kMost = 0xffffffff;
+    const auto number = parse_number(words);
+    require(number && *number >= 1 && *number <= kMost &&
+                *number == std::floor(*number),
+            "--layer-number", "a whole number from 1 on was expected, not '{}'",
+            words);
+    target = static_cast<std::size_t>(*number);
+  });
 }
 
 Option OptionList::layer_range(slicer::LayerNumbers& range) {
@@ -265,7 +279,10 @@ std::optional<Option> OptionList::find(const std::string& name) {
 }
 
 void OptionList::on_read(const std::function<void()>& use) {
-  app_->parse_complete_callback(use);
+  read_uses_.push_back(use);
+  app_->parse_complete_callback([this] {
+    for (const auto& one : read_uses_) one();
+  });
 }
 
 std::optional<std::string> OptionList::read(int argc, const char* const* argv,
@@ -279,8 +296,9 @@ std::optional<std::string> OptionList::read(int argc, const char* const* argv,
     return std::string(all_help);
   } catch (const CLI::CallForVersion& version) {
     return fmt::format("{}\n", version.what());
-  } catch (const CLI::ExtrasError& error) {
-    throw compiler::RequestError(error.what() + hint_for(*app_));
+  } catch (const CLI::ExtrasError&) {
+    throw compiler::RequestError(unexpected_words(app_->remaining()) +
+                                 hint_for(*app_));
   } catch (const CLI::ArgumentMismatch& error) {
     throw compiler::RequestError(words_of(error));
   } catch (const CLI::ParseError& error) {

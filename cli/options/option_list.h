@@ -141,6 +141,7 @@ class OptionList {
 
  private:
   std::unique_ptr<CLI::App> app_;
+  std::vector<std::function<void()>> read_uses_;
   std::string unused_;  // texts of flags that are read otherwise
 };
 

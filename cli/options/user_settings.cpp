@@ -129,12 +129,13 @@ std::string first_file(const OptionList& options) {
 void apply_user_settings(const std::vector<UserSetting>& settings,
                          OptionList& options) {
   if (!makes_layers(options)) return;
-  const bool has_output = !given_word(options, "-o").empty();
+  const std::string output = given_word(options, "-o");
+  const bool says_format = output == "-" || fs::path(output).has_extension();
   // In the order of the alphabet: materials come before their prices.
   std::map<std::string_view, const UserSetting*> last;
   for (const UserSetting& setting : settings) last[setting.name] = &setting;
   for (const auto& [name, setting] : last) {
-    if (name == kOutput && has_output) continue;
+    if (name == kOutput && says_format) continue;
     if (name == kPrice && given_word(options, "--material").empty() &&
         given_word(options, "--metal").empty()) {
       continue;

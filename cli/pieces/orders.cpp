@@ -7,6 +7,7 @@
 
 #include "base/file/csv.h"
 #include "base/paths.h"
+#include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"
 #include "cli/pieces/piece_table.h"
@@ -153,6 +154,7 @@ void check(const OrderSources& from, std::string_view command) {
       "with --table one design at most: that of rows without one");
   compiler::refuse_if(from.copies && !from.table.empty(),
                       "--copies is the table's column 'quantity'");
+  for (const std::string& design : from.designs) refuse_layers(design);
 }
 
 std::vector<Order> read_orders(const OrderSources& from,
