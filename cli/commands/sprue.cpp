@@ -36,7 +36,7 @@ still reach only through thinner places is listed.
   -o FILE             the design to write
   --sprue             =D for the root's diameter in mm, =D,LENGTH for how far
                       from the piece it is at least, too; add ,disc for a plate
-                      for the piece to stand on [1.8 times the thickest place, 5]
+                      for the piece to stand on [1.8 times the thickness, 5]
 
 All options of Design but -p and -P are those of 'lamina --help', and so are
 --chordal-error and --decimate: the written design has the piece as it is drawn.
