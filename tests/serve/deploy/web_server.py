@@ -37,12 +37,15 @@ class WebServer:
 
     def __init__(self, folder, socket):
         self.port, self.inner_port = service.free_port(), service.free_port()
+        # The user of nginx may not see this checkout, such as one of root's.
+        shop = os.path.join(folder, "shop")
+        shutil.copytree(SERVE, shop)
         with open(os.path.join(SERVE, "nginx.conf"), encoding="utf-8") as file:
             text = file.read()
         for old, new in (("listen 80;", f"listen 127.0.0.1:{self.port};"),
                          ("127.0.0.1:9280;", f"127.0.0.1:{self.inner_port};"),
                          ("unix:/run/lamina/socket;", f"unix:{socket};"),
-                         ("root /srv/shop;", f"root {SERVE};"),
+                         ("root /srv/shop;", f"root {shop};"),
                          ("/var/cache/nginx/lamina", f"{folder}/cache")):
             assert text.count(old) == 1, old
             text = text.replace(old, new)
