@@ -58,8 +58,8 @@ TEST_F(UserSettings, NameTheFormatWhereNoOutputDoes) {
   EXPECT_TRUE(
       has(run_at_home({"a.scad", "-o", "b.slc"}).errors, "b.slc: 80 layers"));
   EXPECT_TRUE(has(run_at_home({"a.scad", "-o", "b"}).errors, "b: 80 layers"));
-  EXPECT_TRUE(has(run_at_home({"a.scad", "-o", "c/"}).errors,
-                  "c/a.cli: 80 layers"));
+  EXPECT_TRUE(
+      has(run_at_home({"a.scad", "-o", "c/"}).errors, "c/a.cli: 80 layers"));
 }
 
 TEST_F(UserSettings, PriceWhatIsNamed) {
