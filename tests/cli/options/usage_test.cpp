@@ -1,6 +1,7 @@
 // What the command line promises before any design is read.
 
 #include <algorithm>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -209,6 +210,55 @@ TEST(Usage, OptionsOfDesignsAreRefusedForFilesOfLayers) {
   // Here they are those of the design.
   EXPECT_EQ(
       run(folder, {"compare", "a.slc", "a.scad", "--layer", "0.5"}).status, 0);
+}
+
+TEST(Usage, FilesOfLayersAreNoDesigns) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(5);");
+  ASSERT_EQ(run(folder, {"a.scad", "-o", "a.slc"}).status, 0);
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{
+           {"supports", "a.slc", "-o", "b.scad"},
+           {"sprue", "a.slc", "-o", "b.scad"},
+           {"orient", "a.slc"},
+           {"preflight", "a.slc", "--metal", "sterling-silver"},
+           {"tree", "a.slc", "-o", "b.scad", "--flask", "80,100"},
+           {"plate", "a.slc", "-o", "b.slc", "--plate", "50,50"}}) {
+    const auto result = run(folder, words);
+    EXPECT_EQ(result.status, 2) << words.front();
+    EXPECT_TRUE(has(result.errors, "'a.slc' holds layers already; try"))
+        << result.errors;
+  }
+}
+
+TEST(Usage, OptionsThatChangeNothingAreRefused) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(5);");
+  const std::vector<std::string> orient = {"orient", "a.scad"};
+  const std::vector<std::string> supports = {"supports", "a.scad", "-o",
+                                             "b.scad"};
+  const std::vector<std::string> preflight = {"preflight", "a.scad", "--metal",
+                                              "sterling-silver"};
+  for (auto [command, words, complaint] :
+       std::vector<std::tuple<std::vector<std::string>,
+                              std::vector<std::string>, std::string>>{
+           {orient, {"--metal", "sterling-silver"}, "not expected: --metal"},
+           {orient, {"--min-feature", "1"}, "not expected: --min-feature 1"},
+           {orient, {"--turn", "30"}, "orient finds what --axis"},
+           {supports, {"--min-feature", "1"}, "not expected: --min-feature 1"},
+           {preflight, {"--price", "2/g"}, "not expected: --price 2/g"},
+           {preflight, {"--heights", "1,2"}, "not --heights"},
+           {preflight, {"--sprue"}, "without --supports and --sprue"},
+           {preflight, {"--compensate", "0.1"}, "without --compensate"}}) {
+    command.insert(command.end(), words.begin(), words.end());
+    const auto result = run(folder, command);
+    EXPECT_EQ(result.status, 2) << command[0] << words[0];
+    EXPECT_TRUE(has(result.errors, complaint)) << result.errors;
+  }
+  const auto view =
+      run(folder, {"view", "a.scad", "-o", "a.png", "--layer-number", "0"});
+  EXPECT_EQ(view.status, 2);
+  EXPECT_TRUE(has(view.errors, "a whole number from 1 on was expected"));
 }
 
 TEST(Usage, KnownFormatsThatAreNotWrittenSaySo) {
