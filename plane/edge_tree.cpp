@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -133,25 +132,17 @@ void EdgeTree::add_runs(std::uint32_t loop) {
   const std::uint32_t last = ends_[loop] - 1;
   for (std::uint32_t k = loop_begin(loop); k < last;) {
     const Vec2& first = from(k);
-    std::uint32_t end = k;
+    const bool leads_right = to(k).x >= first.x;
+    const std::uint32_t farthest = std::min(k + kEdgesPerRun, last);
     double low = first.y;
     double high = first.y;
-    const std::uint32_t farthest = std::min(k + kEdgesPerRun, last);
-    const auto extend = [&](bool is_on) {
-      if (!is_on) return false;
+    std::uint32_t end = k;
+    do {
       const double y = to(end++).y;
       low = std::min(low, y);
       high = std::max(high, y);
-      return end < farthest;
-    };
-    const bool leads_right = to(k).x >= first.x;
-    if (leads_right) {
-      while (extend(to(end).x >= from(end).x)) {
-      }
-    } else {
-      while (extend(to(end).x <= from(end).x)) {
-      }
-    }
+    } while (end < farthest && (leads_right ? to(end).x >= from(end).x
+                                            : to(end).x <= from(end).x));
     Node node;
     node.low = Lanes{std::min(first.x, from(end).x), low};
     node.high = Lanes{std::max(first.x, from(end).x), high};

@@ -42,13 +42,12 @@ std::size_t count_values(const Value& values) {
 
 // Functions made in a loop see its last value in 2021.01, and since then that
 // of their round.
-bool gives_each_round_its_own(const Target& target, SourceRange range,
-                              Frame& frame) {
-  if (!frame.in.is_2021()) return true;
-  if (target.variable != nullptr && target.variable->is_boxed) {
+void begin_round(const Target& target, SourceRange range, Frame& frame) {
+  if (!frame.in.is_2021()) {
+    prepare(target, frame);
+  } else if (target.variable != nullptr && target.variable->is_boxed) {
     frame.in.note_difference(range, "functions made in a loop");
   }
-  return false;
 }
 
 }  // namespace
@@ -64,8 +63,7 @@ void emit_for(const Element& element, Frame& frame, VectorGrower& out) {
   const auto& code = static_cast<const ForElement&>(element);
   const Value values = run(code.binding.value, frame);
   const Target& target = code.binding.target;
-  const bool is_fresh = gives_each_round_its_own(target, element.range, frame);
-  if (!is_fresh) prepare(target, frame);
+  prepare(target, frame);
   if (code.body->emit == emit_value) {
     out.end().make_room(count_values(values));
   }
@@ -73,7 +71,7 @@ void emit_for(const Element& element, Frame& frame, VectorGrower& out) {
   for_each_value(values, kMostElements, element.range, frame, [&](Value value) {
     frame.in.count_step();
     frame.in.unwind(scope.mark());
-    if (is_fresh) prepare(target, frame);
+    begin_round(target, element.range, frame);
     frame.in.assign(target, std::move(value), frame);
     emit(*code.body, frame, out);
   });
@@ -98,9 +96,7 @@ void emit_for_c(const Element& element, Frame& frame, VectorGrower& out) {
     const DynamicScope update(frame.in);
     run_bindings(code.update, frame);
     for (const auto& [from, to] : code.copies) {
-      if (gives_each_round_its_own(to, element.range, frame)) {
-        prepare(to, frame);
-      }
+      begin_round(to, element.range, frame);
       const Value& value = frame.slots[from.index];
       Value copy = value.type() == Type::kBox ? value.as_box().value : value;
       frame.in.assign(to, std::move(copy), frame);
