@@ -244,10 +244,10 @@ std::optional<Preflight> preflight(Compilation& c,
   found.layers = slicer::all_layers(scene, settings);
   found.volume = slicer::volume_of(found.layers);
   for (const slicer::Layer& layer : found.layers) {
-    const slicer::LayerMeasures measures = slicer::measure(layer.contours);
-    if (measures.box.is_empty()) continue;
-    found.box.add(Vec3(measures.box.low, layer.bottom));
-    found.box.add(Vec3(measures.box.high, layer.top));
+    const Box2 box = box_of(layer.contours.points);
+    if (box.is_empty()) continue;
+    found.box.add(Vec3(box.low, layer.bottom));
+    found.box.add(Vec3(box.high, layer.top));
   }
   found.parameters = list_parameters(c.design.program);
   found.stones = find_stones(found.parameters);

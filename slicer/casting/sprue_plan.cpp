@@ -38,7 +38,8 @@ constexpr double kClearance = 1;
 // It comes out of the piece within so many radii of its ball.
 constexpr double kMostInside = 2.5;
 // The way is looked at in steps of this share of its radius, and once for so
-// many of them where nothing is near.
+// many of them where nothing is near: as far as this share of doubt lets one
+// know quickly.
 constexpr double kStep = 0.5;
 constexpr double kStepsAhead = 6;
 constexpr double kDoubt = 0.2;
@@ -295,10 +296,9 @@ class SpruePlanner {
       if (wanted <= 0) continue;
       if (is_inside(place)) return false;
       if (wanted <= empty) continue;
-      const auto nearest =
-          balls_.nearest(place, wanted + kStepsAhead * step, kDoubt);
-      empty = nearest ? nearest->distance / (1 + kDoubt)
-                      : wanted + kStepsAhead * step;
+      const double ahead = wanted + kStepsAhead * step;
+      const auto nearest = balls_.nearest(place, ahead, kDoubt);
+      empty = nearest ? nearest->distance / (1 + kDoubt) : ahead;
       if (empty < wanted && balls_.nearest(place, wanted)) return false;
     }
     return true;
