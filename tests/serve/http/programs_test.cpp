@@ -309,7 +309,7 @@ TEST_F(ServingPrograms, AreAnsweredWhatIsUnderWayAtTheEnd) {
         EXPECT_EQ(silent.receive(), "");
         answer = client.receive();
         client.close();
-        EXPECT_TRUE(wait_until([&] { return has_ended.load(); }));
+        EXPECT_TRUE(wait_for(has_ended));
       });
   EXPECT_FALSE(has(of_idle, "Connection: close")) << of_idle;
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 200 ")) << answer;
@@ -328,11 +328,11 @@ TEST_F(ServingPrograms, CanFinishARequestThatHasBegunAtTheEnd) {
   serve(always(text("answer")), [&] {
     Client client(address_);
     client.send("GET / HTTP/1.1\r\n");
-    EXPECT_TRUE(wait_until([&] { return ends.load(); }));
+    EXPECT_TRUE(wait_for(ends));
     client.send(host() + "\r\n");
     answer = client.receive();
     client.close();
-    EXPECT_TRUE(wait_until([&] { return has_ended.load(); }));
+    EXPECT_TRUE(wait_for(has_ended));
   });
   EXPECT_EQ(body_of(answer), "answer");
   EXPECT_TRUE(has(answer, "\r\nConnection: close\r\n")) << answer;

@@ -296,7 +296,7 @@ TEST_F(Serving, CallsOnceThePeerOfAStreamHasGone) {
         client.send(get("/"));
         client.receive_to("\r\n\r\nx");
         client.close();
-        EXPECT_TRUE(wait_until([&] { return has_closed.load(); }));
+        EXPECT_TRUE(wait_for(has_closed));
       });
 }
 
@@ -332,7 +332,7 @@ TEST_F(ServingLittle, CutsOffAStreamThatNobodyTakes) {
       [&] {
         Client client(address_);
         client.send(get("/"));
-        EXPECT_TRUE(wait_until([&] { return has_closed.load(); }));
+        EXPECT_TRUE(wait_for(has_closed));
         EXPECT_LT(client.receive().size(), std::size_t{64} << 20);
       });
 }
@@ -349,7 +349,7 @@ TEST_F(ServingLittle, CutsOffAReaderThatStops) {
       [&] {
         Client client(address_);
         client.send(get("/"));
-        EXPECT_TRUE(wait_until([&] { return has_closed.load(); }));
+        EXPECT_TRUE(wait_for(has_closed));
       });
 }
 
@@ -506,7 +506,7 @@ TEST_F(Serving, RepliesMayOutliveTheServer) {
       [&] {
         Client client(address_);
         client.send(get("/"));
-        EXPECT_TRUE(wait_until([&] { return has_come.load(); }));
+        EXPECT_TRUE(wait_for(has_come));
       });
   server_.reset();
   EXPECT_FALSE(kept->is_open());

@@ -31,6 +31,11 @@ using support::has;
 using support::wait_until;
 using ReplyPointer = std::shared_ptr<Reply>;
 
+// Waits until it is set; false where that takes a minute.
+inline bool wait_for(const std::atomic<bool>& flag) {
+  return wait_until([&] { return flag.load(); });
+}
+
 class Client {
  public:
   explicit Client(const Address& address) : socket_(make_socket(address)) {
@@ -190,9 +195,9 @@ class Serving : public testing::Test {
         [&] {
           Client client(address_);
           client.send(get("/"));
-          EXPECT_TRUE(wait_until([&] { return has_come.load(); }));
+          EXPECT_TRUE(wait_for(has_come));
           client.close();
-          EXPECT_TRUE(wait_until([&] { return has_closed.load(); }));
+          EXPECT_TRUE(wait_for(has_closed));
         });
     Response response;
     response.body = "too late";
